@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <string>
+#include <vector>
+
+#include "controller/daemon/command.h"
+
+int main(int count, char** words) {
+  const std::vector<std::string> arguments(words + 1, words + count);
+  return static_cast<int>(
+      chiaro::daemon::run_chiaro(arguments, chiaro::daemon::real_world(words[0])));
+}

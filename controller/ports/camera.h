@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a camera driver implements: the newest frame there is.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "controller/core/picture.h"
+#include "controller/core/result.h"
+#include "controller/ports/clock.h"
+
+namespace chiaro::ports {
+
+struct CameraFrame {
+  core::EncodedPicture picture;
+  TimePoint taken;  ///< when the driver received it, monotonic
+};
+
+/// One camera; thread-bound (its own thread). `grab` may block up to its timeout.
+class Camera {
+ public:
+  virtual ~Camera() = default;
+  virtual core::Result<CameraFrame> grab(Duration timeout) = 0;
+};
+
+}  // namespace chiaro::ports

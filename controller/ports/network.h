@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Datagrams as drivers need them. The real ones are in drivers/common; tests use an in-memory
+// network on one fake clock.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "controller/core/result.h"
+
+namespace chiaro::ports {
+
+struct Endpoint {
+  std::string address;  ///< dotted IPv4
+  std::uint16_t port = 0;
+  friend bool operator==(const Endpoint&, const Endpoint&) = default;
+};
+
+/// One UDP socket. One thread at a time.
+class DatagramSocket {
+ public:
+  virtual ~DatagramSocket() = default;
+  /// Never blocks; false when the datagram could not be sent (link down, buffer full). Real-time:
+  /// no allocation, lock or throw.
+  virtual bool send(const Endpoint& to, std::span<const std::uint8_t> datagram) = 0;
+  /// Never blocks; nothing when no datagram waits. Returns the number of bytes written to `into`
+  /// (a longer datagram is cut).
+  virtual std::optional<std::size_t> receive(std::span<std::uint8_t> into, Endpoint* from) = 0;
+  /// Joins a multicast group on the socket's interface.
+  virtual core::Result<core::Done> join(const std::string& group) = 0;
+  /// For poll(2); -1 when there is none (in memory).
+  virtual int descriptor() const { return -1; }
+};
+
+/// Thread-safe.
+class Network {
+ public:
+  virtual ~Network() = default;
+  struct Options {
+    std::string interface;         ///< name such as "lo" or "eth0"; empty = the system's choice
+    std::uint16_t local_port = 0;  ///< 0 = any free port (a sender)
+    bool share_port = false;       ///< several receivers on one port (multicast)
+  };
+  virtual core::Result<std::unique_ptr<DatagramSocket>> open_datagram(const Options& options) = 0;
+};
+
+}  // namespace chiaro::ports

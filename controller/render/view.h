@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// What one camera sees, and what each light adds to it. The view is built once; layers are made
+// when a light moves; pictures are mixed from layers by levels and never trace a ray.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "controller/core/gbuffer.h"
+#include "controller/core/result.h"
+#include "controller/twin/scene.h"
+
+namespace chiaro::render {
+
+/// Embree's scene over a Geometry. Thread-safe once built. Owns nothing of the geometry but a
+/// shared reference.
+class Tracer {
+ public:
+  explicit Tracer(std::shared_ptr<const twin::Geometry> geometry);
+  ~Tracer();
+  Tracer(const Tracer&) = delete;
+  Tracer& operator=(const Tracer&) = delete;
+
+  struct Hit {
+    bool hit = false;
+    float distance = 0, u = 0, v = 0;
+    std::uint32_t mesh = 0, triangle = 0;
+  };
+  Hit closest(core::Vec3 from, core::Vec3 direction, double most = 1e30) const;
+  bool blocked(core::Vec3 from, core::Vec3 to) const;
+  const twin::Geometry& geometry() const;
+  void* embree_scene() const;  ///< RTCScene, for kernels inside `render` and the simulator
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// One surface sample per pixel of `camera` at `size` (the camera's aspect is kept by its vertical
+/// field of view). Counts rays in `work`.
+struct View {
+  core::GBuffer buffer;
+  std::shared_ptr<const Tracer> tracer;
+  core::Vec3 eye;
+};
+View see(std::shared_ptr<const Tracer> tracer, const studio::Camera& camera, core::Size size);
+
+enum class Shadows { none, hard, soft };  ///< hard: one ray to an area light's centre
+
+/// Traced exactly: the reference. One or many rays per sample (soft: a fixed 16 x 16 stratified set
+/// for rectangle and disk). Values are display-linear (exposure gain applied), at full level.
+core::Layer layer(const View& view, const twin::Light& light, double exposure_gain,
+                  Shadows shadows = Shadows::soft);
+/// Visible fraction 0..1 of the light per pixel (1 where nothing is seen).
+core::Plane visibility(const View& view, const twin::Light& light, Shadows shadows = Shadows::soft);
+core::Picture ambient_layer(const View& view, const core::Rgb& irradiance, double exposure_gain);
+
+/// sum of level * (diffuse + specular) over layers, plus ambient. Precondition: equal sizes.
+core::Picture relit(std::span<const core::Layer> layers, std::span<const double> levels,
+                    const core::Picture& ambient);
+/// The whole scene, once, with exact shadows.
+core::Picture picture(const View& view, const twin::Scene& scene, Shadows shadows = Shadows::soft);
+
+/// Work done since construction or reset, for tests and the bench: counted, never timed.
+struct Work {
+  std::uint64_t primary_rays = 0, shadow_rays = 0, layers = 0;
+};
+Work work_done();  ///< process-wide, relaxed atomics
+
+}  // namespace chiaro::render

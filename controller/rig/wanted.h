@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// What brain and hand tell each other, as values: state, never events. They travel through two
+// one-way boxes in shared memory (controller/daemon/box.h), so a reader that missed ten posts has
+// missed nothing.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "controller/core/dof.h"
+#include "controller/ports/clock.h"
+
+namespace chiaro::rig {
+
+/// Later entries win where they have a value: blackout (apart) > manual > look > automatic >
+/// default.
+enum class Source : std::uint8_t { automatic, look, manual };
+inline constexpr std::size_t kSources = 3;
+
+/// Ordered: later wins.
+enum class Caution : std::uint8_t { normal, hold, fade_to_safe, blackout };
+std::string_view name_of(Caution caution);
+
+/// One source's word on every fixture. A repeated fade id does not restart the fade; each fade
+/// starts from what the hand is sending when it first sees the id.
+struct SourceState {
+  std::vector<core::FixtureState> fixtures;  ///< by fixture index; absent DOFs: no opinion
+  std::uint64_t fade_id = 0;
+  double fade_s = 0;
+};
+
+enum class Master : std::uint8_t { grand, key, fill, back, background };
+inline constexpr std::size_t kMasters = 5;
+
+/// Brain to hand.
+struct Wanted {
+  std::uint64_t studio_fingerprint = 0;
+  std::int64_t posted_ns = 0;  ///< monotonic clock of the post: the brain's age
+  std::array<SourceState, kSources> sources;
+  std::array<double, kMasters> masters{1, 1, 1, 1, 1};
+  bool blackout = false;          ///< as the brain's API wants it; latched by blackout_id
+  std::uint64_t blackout_id = 0;  ///< a new id carries a new wish; the hand's own latch may differ
+};
+
+/// Hand to brain.
+struct Sent {
+  std::uint64_t studio_fingerprint = 0;
+  std::int64_t sent_ns = 0;
+  std::vector<core::FixtureState> fixtures;  ///< what the lamps are being told now
+  std::array<SourceState, kSources>
+      sources;  ///< the sources as the hand holds them: a starting brain adopts them
+  std::array<double, kMasters> masters{1, 1, 1, 1, 1};
+  std::array<std::uint64_t, kSources> fade_id{};  ///< in progress or last
+  std::array<double, kSources> fade_progress{};   ///< 0..1
+  Caution caution = Caution::normal;
+  bool blackout = false;
+  std::uint64_t blackout_id = 0;  ///< the newest wish the hand has taken
+  bool refused = false;           ///< fingerprints differ: holding
+  struct Port {
+    std::uint16_t universe = 0;
+    std::uint8_t health = 0;  ///< ports::PortHealth
+    double rate_hz = 0;       ///< asked for
+    std::uint64_t frames = 0, late = 0, failed = 0;
+    double jitter_us_p50 = 0, jitter_us_p99 = 0;
+  };
+  std::vector<Port> ports;
+  bool real_time = false;  ///< SCHED_FIFO and locked memory were granted
+};
+
+}  // namespace chiaro::rig

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drivers/common/system_network.h"
+
+#include <arpa/inet.h>
+#include <cerrno>
+#include <cstring>
+#include <net/if.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+namespace chiaro::drivers {
+namespace {
+
+sockaddr_in address_of(const ports::Endpoint& endpoint) {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(endpoint.port);
+  inet_pton(AF_INET, endpoint.address.c_str(), &address.sin_addr);
+  return address;
+}
+
+class SystemDatagram final : public ports::DatagramSocket {
+ public:
+  SystemDatagram(int descriptor, unsigned interface_index, std::string interface)
+      : descriptor_(descriptor),
+        interface_index_(interface_index),
+        interface_(std::move(interface)) {}
+  ~SystemDatagram() override { ::close(descriptor_); }
+  SystemDatagram(const SystemDatagram&) = delete;
+  SystemDatagram& operator=(const SystemDatagram&) = delete;
+
+  bool send(const ports::Endpoint& to, std::span<const std::uint8_t> datagram) override {
+    const sockaddr_in address = address_of(to);
+    const auto sent =
+        ::sendto(descriptor_, datagram.data(), datagram.size(), MSG_DONTWAIT | MSG_NOSIGNAL,
+                 reinterpret_cast<const sockaddr*>(&address), sizeof address);
+    return sent == static_cast<ssize_t>(datagram.size());
+  }
+
+  std::optional<std::size_t> receive(std::span<std::uint8_t> into, ports::Endpoint* from) override {
+    sockaddr_in address{};
+    socklen_t length = sizeof address;
+    const auto got = ::recvfrom(descriptor_, into.data(), into.size(), MSG_DONTWAIT,
+                                reinterpret_cast<sockaddr*>(&address), &length);
+    if (got < 0) return std::nullopt;
+    if (from != nullptr) {
+      char text[INET_ADDRSTRLEN] = {};
+      inet_ntop(AF_INET, &address.sin_addr, text, sizeof text);
+      *from = {text, ntohs(address.sin_port)};
+    }
+    return static_cast<std::size_t>(got);
+  }
+
+  core::Result<core::Done> join(const std::string& group) override {
+    ip_mreqn request{};
+    inet_pton(AF_INET, group.c_str(), &request.imr_multiaddr);
+    request.imr_ifindex = static_cast<int>(interface_index_);
+    if (::setsockopt(descriptor_, IPPROTO_IP, IP_ADD_MEMBERSHIP, &request, sizeof request) != 0 &&
+        errno != EADDRINUSE)
+      return core::Problem{{},
+                           "cannot join multicast group " + group + " on interface '" + interface_ +
+                               "': " + std::strerror(errno),
+                           "check the interface with `ip link`"};
+    return core::Done{};
+  }
+
+  int descriptor() const override { return descriptor_; }
+
+ private:
+  int descriptor_;
+  unsigned interface_index_;
+  std::string interface_;
+};
+
+}  // namespace
+
+core::Result<std::unique_ptr<ports::DatagramSocket>> SystemNetwork::open_datagram(
+    const Options& options) {
+  unsigned index = 0;
+  if (!options.interface.empty() && (index = ::if_nametoindex(options.interface.c_str())) == 0)
+    return core::Problem{{},
+                         "there is no network interface '" + options.interface + "'",
+                         "`ip link` lists their names"};
+  const int descriptor = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  if (descriptor < 0)
+    return core::Problem{{},
+                         std::string("cannot open a UDP socket: ") + std::strerror(errno),
+                         "are too many files open?"};
+  auto socket = std::make_unique<SystemDatagram>(descriptor, index, options.interface);
+  const int on = 1;
+  if (options.share_port) ::setsockopt(descriptor, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+  if (index != 0) {
+    // Multicast leaves by the default route unless told otherwise: the commonest "sACN does not
+    // work".
+    ip_mreqn out{};
+    out.imr_ifindex = static_cast<int>(index);
+    ::setsockopt(descriptor, IPPROTO_IP, IP_MULTICAST_IF, &out, sizeof out);
+  }
+  ::setsockopt(descriptor, IPPROTO_IP, IP_MULTICAST_LOOP, &on, sizeof on);
+  sockaddr_in local{};
+  local.sin_family = AF_INET;
+  local.sin_port = htons(options.local_port);
+  if (::bind(descriptor, reinterpret_cast<const sockaddr*>(&local), sizeof local) != 0)
+    return core::Problem{
+        {},
+        "cannot use UDP port " + std::to_string(options.local_port) + ": " + std::strerror(errno),
+        errno == EADDRINUSE ? "another program has it; `ss -lunp` shows which"
+                            : "choose a port above 1024"};
+  return std::unique_ptr<ports::DatagramSocket>(std::move(socket));
+}
+
+}  // namespace chiaro::drivers
