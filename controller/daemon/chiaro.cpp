@@ -10,7 +10,7 @@
 
 namespace chiaro::daemon {
 
-Exit run_chiaro(std::span<const std::string> arguments, World& world) {
+ports::Exit run_chiaro(std::span<const std::string> arguments, ports::World& world) {
   CLI::App app{"Chiaro lights real studios by example.", "chiaro"};
   app.require_subcommand(1);
   app.set_help_all_flag("--help-all", "help of every command");
@@ -25,11 +25,11 @@ Exit run_chiaro(std::span<const std::string> arguments, World& world) {
     app.parse(reversed);
   } catch (const CLI::ParseError& error) {
     const int code = app.exit(error, world.out, world.err);
-    return code == 0 ? Exit::done : Exit::usage;
+    return code == 0 ? ports::Exit::done : ports::Exit::usage;
   } catch (const std::exception& fault) {
     world.err << "chiaro: internal fault: " << fault.what()
               << "\nThis is a bug in Chiaro: please report it with the command line above.\n";
-    return Exit::internal_fault;
+    return ports::Exit::internal_fault;
   }
   return verdict.exit;
 }

@@ -3,9 +3,10 @@
 #include <vector>
 
 #include "controller/daemon/command.h"
+#include "drivers/common/real_world.h"
 
 int main(int count, char** words) {
   const std::vector<std::string> arguments(words + 1, words + count);
   return static_cast<int>(
-      chiaro::daemon::run_chiaro(arguments, chiaro::daemon::real_world(words[0])));
+      chiaro::daemon::run_chiaro(arguments, chiaro::drivers::real_world(words[0])));
 }

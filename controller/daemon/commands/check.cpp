@@ -5,7 +5,7 @@
 
 namespace chiaro::daemon {
 
-void declare_check(CLI::App& app, World&, Verdict&) {
+void declare_check(CLI::App& app, ports::World&, Verdict&) {
   app.add_subcommand("check", "every problem of a studio file");
 }
 

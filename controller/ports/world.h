@@ -13,9 +13,8 @@
 
 #include "controller/ports/clock.h"
 #include "controller/ports/network.h"
-#include "controller/studio/load.h"
 
-namespace chiaro::daemon {
+namespace chiaro::ports {
 
 /// The command-line contract's exit codes.
 enum class Exit : int {
@@ -27,22 +26,17 @@ enum class Exit : int {
 };
 
 struct World {
-  ports::Clock& clock;
-  ports::Network& network;
+  Clock& clock;
+  Network& network;
   std::istream& in;
   std::ostream& out;  ///< results; with --json one object
   std::ostream& err;  ///< people's text and progress
   bool err_is_terminal = false;
-  studio::Folders folders;               ///< shipped config
+  std::filesystem::path config_folder;   ///< shipped fixtures, moods, studios, subjects
   std::filesystem::path state_folder;    ///< survives a restart: looks, last levels, CID, caches
   std::filesystem::path runtime_folder;  ///< does not: boxes, control socket
   const std::atomic<bool>& stop;         ///< SIGINT, SIGTERM
   std::atomic<bool>& reload;             ///< SIGHUP; the program clears it
 };
 
-/// The world of a real process: real clock, network, streams and folders
-/// (CHIARO_CONFIG, CHIARO_STATE and CHIARO_RUNTIME override them), signal handlers installed.
-/// Lives as long as the process.
-World& real_world(const char* program_path);
-
-}  // namespace chiaro::daemon
+}  // namespace chiaro::ports

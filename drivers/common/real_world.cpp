@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The world of a real process.
+#include "drivers/common/real_world.h"
+
 #include <csignal>
 #include <cstdlib>
 #include <ctime>
 #include <iostream>
 #include <unistd.h>
 
-#include "controller/daemon/world.h"
 #include "drivers/common/system_network.h"
 
-namespace chiaro::daemon {
+namespace chiaro::drivers {
 namespace {
 
 std::atomic<bool> stop_asked{false}, reload_asked{false};
@@ -66,20 +66,20 @@ std::filesystem::path runtime_folder() {
 
 }  // namespace
 
-World& real_world(const char* program_path) {
+ports::World& real_world(const char* program_path) {
   static SystemClock clock;
   static drivers::SystemNetwork network;
-  static World world{clock,
-                     network,
-                     std::cin,
-                     std::cout,
-                     std::cerr,
-                     ::isatty(STDERR_FILENO) == 1,
-                     studio::Folders{config_folder(program_path)},
-                     state_folder(),
-                     runtime_folder(),
-                     stop_asked,
-                     reload_asked};
+  static ports::World world{clock,
+                            network,
+                            std::cin,
+                            std::cout,
+                            std::cerr,
+                            ::isatty(STDERR_FILENO) == 1,
+                            config_folder(program_path),
+                            state_folder(),
+                            runtime_folder(),
+                            stop_asked,
+                            reload_asked};
   struct sigaction action {};
   action.sa_handler = [](int) { stop_asked = true; };
   sigaction(SIGINT, &action, nullptr);
@@ -90,4 +90,4 @@ World& real_world(const char* program_path) {
   return world;
 }
 
-}  // namespace chiaro::daemon
+}  // namespace chiaro::drivers
