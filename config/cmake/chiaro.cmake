@@ -91,4 +91,11 @@ function(chiaro_tests name)
   target_compile_definitions(${name} PRIVATE CHIARO_SOURCE="${CMAKE_SOURCE_DIR}" CHIARO_BIN="${CMAKE_BINARY_DIR}/bin")
   gtest_discover_tests(${name} TEST_PREFIX ${name}. DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
     PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT})
+  # `ninja tests_<label>` builds what `ctest -L <label>` runs.
+  foreach(label ${ARG_LABELS})
+    if(NOT TARGET tests_${label})
+      add_custom_target(tests_${label})
+    endif()
+    add_dependencies(tests_${label} ${name})
+  endforeach()
 endfunction()
