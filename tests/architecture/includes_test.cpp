@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <regex>
+#include <set>
 
 #include "tests/architecture/project.h"
 
@@ -97,13 +98,34 @@ TEST(Includes, NoDriverKnowsAnother) {
   }
 }
 
+/// A header that only the sources of its own folder include says so in its opening.
+bool is_for_sources_only(const File& file) {
+  for (std::size_t i = 0; i < std::min<std::size_t>(8, file.lines.size()); ++i)
+    if (file.lines[i].find("Included by sources only") != std::string::npos) return true;
+  return false;
+}
+
 TEST(Includes, HeadersOfOursCarryNoHeavyHeadersOfOthers) {
   static const std::regex kHeavy(
       R"(^\s*#\s*include\s*<(opencv2|embree3|Eigen|boost|yaml-cpp|nlohmann|CLI|tbb|oneapi|nlopt|spdlog|assimp|sqlite3|hwy|OpenEXR|Imf))");
   for (const auto& file : files()) {
-    if (file.extension() != ".h" || starts_with(file.path, "tests/")) continue;
+    if (file.extension() != ".h" || starts_with(file.path, "tests/") || is_for_sources_only(file))
+      continue;
     for (const auto& line : file.lines)
       EXPECT_FALSE(std::regex_search(line, kHeavy)) << file.path << ": " << line;
+  }
+}
+
+TEST(Includes, HeadersForSourcesOnlyAreInNoOtherHeader) {
+  std::set<std::string> inner;
+  for (const auto& file : files())
+    if (file.extension() == ".h" && is_for_sources_only(file)) inner.insert(file.path);
+  for (const auto& file : files()) {
+    if (file.extension() != ".h" || inner.count(file.path) > 0) continue;
+    for (const auto& line : file.lines) {
+      const auto included = quoted_include(line);
+      EXPECT_TRUE(!included || inner.count(*included) == 0) << file.path << ": " << line;
+    }
   }
 }
 
