@@ -75,7 +75,7 @@ TEST_P(EveryTerm, ItsWeightAloneDecidesItsShare) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Def, EveryTerm, testing::ValuesIn(all().begin(), all().end()),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& term) { return std::string(term.param.name); });
 
 TEST(Terms, ListAndFolderAgree) {
   std::set<std::string> files, listed{"term"};

@@ -208,8 +208,9 @@ TEST_P(EveryTarget, GramFormsAgreeWithThePicturesThemselves) {
       plain += d * d;
       weighted += double{weight.values[i]} * d * d;
     }
-    EXPECT_NEAR(least_squares_form(columns, offset, target, nullptr).at(x), plain, 1e-4);
-    EXPECT_NEAR(least_squares_form(columns, offset, target, &weight).at(x), weighted, 1e-4);
+    EXPECT_NEAR(least_squares_form(columns, offset, target, nullptr).at(x), plain, 1e-6 * plain);
+    EXPECT_NEAR(least_squares_form(columns, offset, target, &weight).at(x), weighted,
+                1e-6 * weighted);
 
     const PixelMap map = patchwork(size, 70);
     const Components c = components(picture, map);
@@ -223,7 +224,9 @@ TEST_P(EveryTarget, GramFormsAgreeWithThePicturesThemselves) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Simd, EveryTarget, testing::ValuesIn(kernels::targets()),
-                         [](const auto& info) { return "target" + std::to_string(info.param); });
+                         [](const auto& target) {
+                           return "target" + std::to_string(target.param);
+                         });
 
 }  // namespace
 }  // namespace chiaro::measure
