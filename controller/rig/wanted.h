@@ -15,7 +15,7 @@
 namespace chiaro::rig {
 
 /// Later entries win where they have a value: blackout (apart) > manual > look > automatic >
-/// default.
+/// default (the levels of the last power-down where they were kept, else the studio file's).
 enum class Source : std::uint8_t { automatic, look, manual };
 inline constexpr std::size_t kSources = 3;
 
@@ -24,7 +24,9 @@ enum class Caution : std::uint8_t { normal, hold, fade_to_safe, blackout };
 std::string_view name_of(Caution caution);
 
 /// One source's word on every fixture. A repeated fade id does not restart the fade; each fade
-/// starts from what the hand is sending when it first sees the id.
+/// starts from what the hand is sending when it first sees the id. A value that changes under an
+/// old id is followed at once, or by the end of the fade that is still running. A source that lets
+/// a DOF go fades it to the next source when it says so with a new id, else it jumps.
 struct SourceState {
   std::vector<core::FixtureState> fixtures;  ///< by fixture index; absent DOFs: no opinion
   std::uint64_t fade_id = 0;
@@ -49,6 +51,7 @@ struct Sent {
   std::uint64_t studio_fingerprint = 0;
   std::int64_t sent_ns = 0;
   std::vector<core::FixtureState> fixtures;  ///< what the lamps are being told now
+  std::vector<core::FixtureState> held;      ///< the same before masters, caution and blackout
   std::array<SourceState, kSources>
       sources;  ///< the sources as the hand holds them: a starting brain adopts them
   std::array<double, kMasters> masters{1, 1, 1, 1, 1};
@@ -62,11 +65,15 @@ struct Sent {
     std::uint16_t universe = 0;
     std::uint8_t health = 0;  ///< ports::PortHealth
     double rate_hz = 0;       ///< asked for
-    std::uint64_t frames = 0, late = 0, failed = 0;
-    double jitter_us_p50 = 0, jitter_us_p99 = 0;
+    std::uint64_t frames = 0, failed = 0;
+    std::uint64_t late = 0;    ///< left more than half a period after their deadline
+    std::uint64_t missed = 0;  ///< deadlines at which nothing left
+    /// |gap between two frames - period|, since the start: median, 99 and 99.9 per cent.
+    double jitter_us_p50 = 0, jitter_us_p99 = 0, jitter_us_p999 = 0;
   };
   std::vector<Port> ports;
   bool real_time = false;  ///< SCHED_FIFO and locked memory were granted
+  bool dry_run = false;    ///< nothing physical is open
 };
 
 }  // namespace chiaro::rig

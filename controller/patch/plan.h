@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// The patch of a whole studio, worked out once: which degree of freedom goes to which slots by
+// which law. The output encodes with it and the virtual studio decodes with it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "controller/core/dof.h"
+#include "controller/core/result.h"
+#include "controller/ports/output.h"
+#include "controller/rig/governor.h"
+#include "controller/studio/studio.h"
+
+namespace chiaro::patch {
+
+/// How levels become slots, per channel of a fixture's mode:
+/// * a channel without a DOF sends its constant for ever (a strobe at "open");
+/// * `intensity` goes through the inverse of the dimmer curve, so that light follows the level;
+/// * in a mode without an intensity channel the emitter drives (red, green, …) are the dimmers:
+///   each is multiplied by the level and goes through the inverse curve. With an intensity channel
+///   the drives are sent as they are;
+/// * every other DOF goes through the channel's segments;
+/// * 1, 2 or 3 slots, most significant first, rounded once, here.
+/// A DOF that a hand sets, and one without a value, sends 0. Slots that nobody has are 0.
+class Plan {
+ public:
+  /// Precondition: the studio came from load_studio (addresses and modes are right). Warnings name
+  /// what is planned but has no driver yet.
+  static Plan of(const studio::Studio& studio, core::Problems* warnings = nullptr);
+
+  /// One entry per output of the studio and per patched universe, ascending.
+  std::span<const std::uint16_t> universes() const { return universes_; }
+  std::size_t fixtures() const { return fixtures_; }
+  /// Blank frames in the order of `universes`.
+  std::vector<ports::DmxFrame> blank_frames() const;
+
+  /// Writes every slot of every frame. Precondition: frames.size() == universes().size().
+  /// Real-time.
+  void encode(const rig::AllowedLevels& levels, std::span<ports::DmxFrame> frames) const;
+
+  /// What lamps that get these frames are told, by fixture index. The same table backwards: in a
+  /// mode without an intensity channel the level is the strongest drive and the drives are given
+  /// relative to it, so that the light is the same. DOFs without a channel stay absent. Real-time.
+  void decode(std::span<const ports::DmxFrame> frames,
+              std::span<core::FixtureState> fixtures) const;
+
+  /// One line of the patch sheet per channel, in the order of universe and address.
+  struct Line {
+    std::size_t fixture = 0;
+    std::uint16_t universe = 1;
+    int first = 1, last = 1;  ///< slots, 1..512
+    std::string channel;
+    std::string law;  ///< "intensity, 16 bit, square curve", "open (255)"
+  };
+  std::vector<Line> sheet() const;
+
+ private:
+  enum class Law : std::uint8_t { constant, level, dimmed_drive, segments, by_hand };
+  struct Slot {
+    std::uint32_t fixture = 0;
+    std::uint32_t universe = 0;  ///< index into universes_
+    std::uint16_t first = 0;     ///< 0..511
+    std::uint8_t bytes = 1;
+    Law law = Law::constant;
+    core::Dof dof = core::Dof::intensity;
+    std::uint32_t constant = 0;  ///< raw
+    std::uint32_t curve = 0;     ///< index into curves_
+    std::vector<studio::Segment> segments;
+    std::string name;
+  };
+  void add(const studio::Fixture& fixture, std::size_t index);
+  double drive(const Slot& slot, const core::FixtureState& state) const;
+  void read(const Slot& slot, double fraction, core::FixtureState& state) const;
+
+  std::size_t fixtures_ = 0;
+  std::vector<std::uint16_t> universes_;
+  std::vector<studio::DimmerCurve> curves_;  ///< by fixture index
+  std::vector<Slot> slots_;
+  std::vector<std::uint8_t> no_dimmer_;  ///< by fixture: 1 = the drives are the dimmers
+};
+
+}  // namespace chiaro::patch
