@@ -24,9 +24,9 @@ struct TraceOptions {
   /// Bounced light of one sample is clipped to this display-linear value, which takes out the odd
   /// bright speck at the price of a little energy; 0 = never clipped.
   double most_bounced = 8;
-  int threads = 0;                           ///< 0 = as many as the machine has
-  const std::atomic<bool>* stop = nullptr;   ///< set by another thread: returns early, unfinished
-  std::function<void(double done)> progress; ///< 0..1, one thread at a time
+  int threads = 0;                            ///< 0 = as many as the machine has
+  const std::atomic<bool>* stop = nullptr;    ///< set by another thread: returns early, unfinished
+  std::function<void(double done)> progress;  ///< 0..1, one thread at a time
 };
 
 /// Display-linear (the scene's exposure gain applied, unclipped). Light transport is linear: the
