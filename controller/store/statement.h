@@ -40,7 +40,7 @@ class Statement {
     const auto size = static_cast<std::size_t>(sqlite3_column_bytes(statement_, column));
     return data == nullptr ? std::string() : std::string(static_cast<const char*>(data), size);
   }
-  std::int64_t number(int column) { return sqlite3_column_int64(statement_, column); }
+  std::int64_t whole(int column) { return sqlite3_column_int64(statement_, column); }
   int changes() const { return sqlite3_changes(database_); }
 
  private:

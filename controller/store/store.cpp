@@ -69,7 +69,7 @@ core::Result<std::unique_ptr<Store>> Store::open(const std::filesystem::path& fi
   if (!readable || !execute(handle, "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL;"))
     return trouble(handle, file);
   Statement version(handle, "PRAGMA user_version");
-  if (version.row() && version.number(0) > kVersion)
+  if (version.row() && version.whole(0) > kVersion)
     return core::Problem{{file, 0, 0},
                          "this store was made by a newer Chiaro",
                          "install that version again, or move the file away"};
@@ -114,7 +114,7 @@ std::optional<LookRecord> Store::look(std::int64_t id) const {
   look.mood = select.bytes(1);
   look.verdict = select.bytes(2);
   look.created = select.bytes(3);
-  look.kept = select.number(4) != 0;
+  look.kept = select.whole(4) != 0;
   look.request = select.bytes(5);
   look.json = select.bytes(6);
   look.picture = select.bytes(7);
@@ -129,12 +129,12 @@ std::vector<LookRecord> Store::looks() const {
                    "SELECT id, name, mood, verdict, created, kept FROM looks ORDER BY id DESC");
   while (select.row()) {
     LookRecord look;
-    look.id = select.number(0);
+    look.id = select.whole(0);
     look.name = select.bytes(1);
     look.mood = select.bytes(2);
     look.verdict = select.bytes(3);
     look.created = select.bytes(4);
-    look.kept = select.number(5) != 0;
+    look.kept = select.whole(5) != 0;
     list.push_back(std::move(look));
   }
   return list;
