@@ -141,6 +141,7 @@ enum class HandKind { knob, gel, flash_power, stand };
 struct HandBinding {
   core::Dof dof;
   HandKind kind;
+  std::optional<core::Range> range;  ///< inside units; the profile's when absent
 };
 
 struct Limits {
@@ -160,16 +161,19 @@ struct Fixture {
   Mount mount;
   Patch patch;
   Limits limits;
-  DimmerCurve curve;  ///< the patch's; the profile's unless the file overrides it
-  std::vector<HandBinding> by_hand;
-  bool controlled = true;      ///< false: an uncontrolled practical: included, never changed
-  core::FixtureState initial;  ///< level and colour when nothing has been said
+  DimmerCurve curve;                 ///< the patch's; the profile's unless the file overrides it
+  std::vector<HandBinding> by_hand;  ///< a stand mount's place is always among them
+  bool controlled = true;            ///< false: an uncontrolled practical: included, never changed
+  core::FixtureState initial;        ///< level and colour when nothing has been said
   core::Place place;
+  core::Place patch_place;
 
   /// Optic and output with the fitted modifier applied.
   Optic fitted_optic() const;
   core::Candela fitted_output() const;
-  /// Every DOF that this fixture has at all, with its range (inside units).
+  /// Every DOF that this fixture has at all, with its range (inside units): intensity up to its
+  /// limit, what the patched mode or a hand can set of colour and zoom, what the mount can move.
+  /// Arcs and tracks do not move yet. Nothing for an uncontrolled fixture.
   std::vector<std::pair<core::Dof, core::Range>> ranges() const;
 };
 

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "controller/studio/studio.h"
+
+#include <algorithm>
+
+namespace chiaro::studio {
+
+std::string_view name_of(Role role) {
+  switch (role) {
+    case Role::key:
+      return "key";
+    case Role::fill:
+      return "fill";
+    case Role::back:
+      return "back";
+    case Role::hair:
+      return "hair";
+    case Role::kicker:
+      return "kicker";
+    case Role::background:
+      return "background";
+    case Role::practical:
+      return "practical";
+  }
+  return "";
+}
+
+std::optional<std::size_t> Studio::fixture_index(std::string_view wanted) const {
+  const auto found = std::find_if(fixtures.begin(), fixtures.end(),
+                                  [&](const Fixture& each) { return each.name == wanted; });
+  if (found == fixtures.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - fixtures.begin());
+}
+
+const Fixture* Studio::fixture(std::string_view wanted) const {
+  const auto index = fixture_index(wanted);
+  return index ? &fixtures[*index] : nullptr;
+}
+
+Rig placed_rig(const Studio& studio) {
+  Rig rig;
+  for (const Fixture& fixture : studio.fixtures) {
+    core::FixtureState state = fixture.initial;
+    const auto stand_at = [&](const core::Spherical& at) {
+      state.set(core::Dof::azimuth, at.azimuth);
+      state.set(core::Dof::elevation, at.elevation);
+      state.set(core::Dof::distance, at.distance);
+    };
+    if (const auto* stand = std::get_if<StandMount>(&fixture.mount)) stand_at(stand->at);
+    if (const auto* free = std::get_if<VirtualMount>(&fixture.mount)) stand_at(free->at);
+    if (const auto* head = std::get_if<PanTiltMount>(&fixture.mount)) {
+      state.set(core::Dof::pan, head->pan.clamp(0));
+      state.set(core::Dof::tilt, head->tilt.clamp(0));
+    }
+    rig.states.push_back(state);
+  }
+  return rig;
+}
+
+double exposure_gain(const Exposure& exposure, const Camera& camera) {
+  // An 18 % card must render as L* 50 when `lux` falls on it.
+  constexpr double kCard = 0.18, kIncidentConstant = 250;  // ISO 2720, flat receptor
+  double lux = exposure.grey_card.value;
+  if (camera.shutter_s && camera.aperture_f && camera.iso)
+    lux = kIncidentConstant * *camera.aperture_f * *camera.aperture_f /
+          (*camera.shutter_s * *camera.iso);
+  return core::luminance_of_lightness(50) / (kCard * lux);
+}
+
+}  // namespace chiaro::studio
