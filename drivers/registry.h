@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -11,6 +12,7 @@
 #include <string_view>
 
 #include "controller/core/result.h"
+#include "controller/ports/camera.h"
 #include "controller/ports/network.h"
 #include "controller/ports/output.h"
 
@@ -37,5 +39,20 @@ std::span<const OutputEntry> outputs();
 core::Result<std::unique_ptr<ports::OutputPort>> make_output(const std::string& driver,
                                                              const OutputSettings& settings,
                                                              ports::Network& network);
+
+/// What a camera driver needs to know. `stop` ends a grab early; it outlives the camera.
+struct CameraSettings {
+  std::string source;  ///< as in the studio file: "http://host/picture"
+  const std::atomic<bool>* stop = nullptr;
+};
+
+struct CameraEntry {
+  std::string_view name, summary;  ///< the name is the source's scheme
+  std::unique_ptr<ports::Camera> (*make)(const CameraSettings& settings, ports::Clock& clock);
+};
+std::span<const CameraEntry> cameras();
+/// The camera for that source; a problem when no driver knows its scheme.
+core::Result<std::unique_ptr<ports::Camera>> make_camera(const CameraSettings& settings,
+                                                         ports::Clock& clock);
 
 }  // namespace chiaro::drivers
