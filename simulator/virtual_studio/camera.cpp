@@ -27,6 +27,15 @@ void add(core::Picture& to, const core::Picture& from, const core::Rgb& factor) 
   add(to.blue, from.blue, factor.b);
 }
 
+TraceOptions tracing(const CameraOptions& options, std::uint64_t stream) {
+  TraceOptions result;
+  result.samples = options.samples;
+  result.seed = options.seed + stream;
+  result.threads = options.threads;
+  result.stop = options.stop;
+  return result;
+}
+
 }  // namespace
 
 VirtualCamera::VirtualCamera(const studio::Studio& studio, const studio::Camera& camera,
@@ -50,12 +59,7 @@ core::Picture VirtualCamera::draw_ambient() {
   scene.lights.clear();
   scene.levels.clear();
   scene.exposure_gain = gain_;
-  return trace_layers(*tracer_, scene, camera_, camera_.size,
-                      {.samples = options_.samples,
-                       .seed = options_.seed,
-                       .threads = options_.threads,
-                       .stop = options_.stop})
-      .ambient;
+  return trace_layers(*tracer_, scene, camera_, camera_.size, tracing(options_, 0)).ambient;
 }
 
 core::Picture VirtualCamera::draw(const twin::Light& white) {
@@ -68,11 +72,8 @@ core::Picture VirtualCamera::draw(const twin::Light& white) {
   const std::shared_ptr<const twin::Geometry> geometry(tracer_, &tracer_->geometry());
   const twin::Scene scene{geometry, {white}, {1}, {0, 0, 0}, gain_};
   // Its own seed per lamp: equal noise in every layer would add up instead of averaging out.
-  auto traced = trace_layers(*tracer_, scene, camera_, camera_.size,
-                             {.samples = options_.samples,
-                              .seed = options_.seed + 1 + white.fixture,
-                              .threads = options_.threads,
-                              .stop = options_.stop});
+  auto traced =
+      trace_layers(*tracer_, scene, camera_, camera_.size, tracing(options_, 1 + white.fixture));
   return std::move(traced.lights.front());
 }
 

@@ -96,8 +96,10 @@ core::FixtureState Lamp::light() const {
     if (!result.has(dof.dof) || !is_drive(dof.dof)) continue;
     double drive = std::clamp(result.get(dof.dof), 0.0, 1.0);
     if (character_.steps) drive = std::round(drive * kSteps) / kSteps;
-    if (dof.dof == Dof::intensity) drive = std::pow(drive, character_.curve) * character_.output;
-    else drive *= character_.emitters[core::index_of(dof.dof)];
+    if (dof.dof == Dof::intensity)
+      drive = std::pow(drive, character_.curve) * character_.output;
+    else
+      drive *= character_.emitters[core::index_of(dof.dof)];
     result.set(dof.dof, drive);
   }
   if (result.has(Dof::cct)) result.set(Dof::cct, result.get(Dof::cct) * character_.cct);

@@ -37,7 +37,7 @@ core::Result<Departures> departures_named(const std::string& words);
 struct Character {
   double output = 1, cct = 1, curve = 1, lag_s = 0;
   std::vector<double> emitters = std::vector<double>(core::kDofs, 1.0);  ///< factor by DOF
-  double aim_right = 0, aim_up = 0;  ///< radians
+  double aim_right = 0, aim_up = 0;                                      ///< radians
   bool steps = false;
   double azimuth = 0, elevation = 0, distance = 1;  ///< placement: added, added, factor
 };

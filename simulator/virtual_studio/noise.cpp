@@ -50,8 +50,8 @@ core::EncodedPicture exposed(const core::Picture& linear, const Sensor& sensor, 
   const auto size = linear.size();
   core::EncodedPicture result(size);
   const core::Plane* const planes[] = {&linear.red, &linear.green, &linear.blue};
-  const auto &table = normals();
-  const auto &bytes = encoding();
+  const auto& table = normals();
+  const auto& bytes = encoding();
   core::Random random(seed, frame);
   const auto well = static_cast<float>(sensor.full_well);
   const auto read = static_cast<float>(sensor.read_noise * sensor.read_noise);
