@@ -52,7 +52,8 @@ enum class Shadows { none, hard, soft };  ///< hard: one ray to an area light's 
 /// for rectangle and disk). Values are display-linear (exposure gain applied), at full level.
 core::Layer layer(const View& view, const twin::Light& light, double exposure_gain,
                   Shadows shadows = Shadows::soft);
-/// Visible fraction 0..1 of the light per pixel (1 where nothing is seen).
+/// Visible fraction 0..1 of the light per pixel (1 where nothing is seen), by what stands between:
+/// a surface that merely faces away is not in cast shadow (its shading is dark by itself).
 core::Plane visibility(const View& view, const twin::Light& light, Shadows shadows = Shadows::soft);
 core::Picture ambient_layer(const View& view, const core::Rgb& irradiance, double exposure_gain);
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -38,16 +39,37 @@ struct Mesh {
 struct Geometry {
   std::vector<Mesh> meshes;  ///< object id = index + 1
   std::vector<SurfaceMaterial> materials;
-  std::vector<core::Picture> textures;  ///< linear albedo
+  std::vector<core::Picture> textures;  ///< linear albedo; v = 0 is the bottom row, repeating
   core::AimFrame aim;                   ///< frame of azimuth, elevation, distance
   core::Box3 subject_bounds, bounds;
-  double radius = 1;  ///< of the subjects about the aim, metres
+  double radius = 1;            ///< of the subjects about the aim, metres
+  core::Problems warnings;      ///< what was left out (a missing texture), for people
 };
 
 /// Loads, welds, normalises, scales and places every subject and background plane. Prepared meshes
 /// are cached by content hash in `cache` (empty = no cache).
+///
+/// A subject stands with the middle of its bounding box over `at` and its lowest point at `at.z`,
+/// its front turned `facing` from the direction of the main camera. Formats by custom: OBJ, glTF,
+/// DAE are Y up with +Z in front; PLY, STL, 3DS, OFF Z up with -Y in front; `up` and `front`
+/// override. A stand-in is raised so that its eyes (kEyesOfBust of its height) are at `eye_height`.
+/// The default aim is the head's centre: the middle of what stands above the neck, the narrowest
+/// place in the upper part with shoulders at least 1.4 times as wide below; without a neck, the
+/// middle of the first subject's box.
+/// A background plane whose normal is level (a wall) stands on `through`, centred sideways; any
+/// other is centred on it, its width along the camera's right. An unbounded one is 60 m wide.
 core::Result<std::shared_ptr<const Geometry>> build_geometry(const studio::Studio& studio,
                                                              const std::filesystem::path& cache);
+
+/// Where the eyes of the shipped bust are, as a part of its height from the base.
+inline constexpr double kEyesOfBust = 0.60;
+
+/// The rectangle that stands for a background plane: centre, unit normal, and the vectors from the
+/// centre to the middle of its right and upper edge. `right` x `up` points along the normal.
+struct PlaneFrame {
+  core::Vec3 centre, normal, right, up;
+};
+PlaneFrame plane_frame(const studio::BackgroundPlane& plane, const core::AimFrame& aim);
 
 /// One lamp at one placement, at full level. Units: candela, metres; `colour` has luminance 1.
 struct Light {
@@ -63,6 +85,11 @@ struct Light {
   core::Rgb colour{1, 1, 1};
   std::size_t fixture = 0;  ///< index into Studio::fixtures
 };
+
+/// No surface is taken to be nearer to a small source than this, so that light stays finite.
+inline constexpr double kNearestLight = 0.01;
+/// Length of a shadow ray towards parallel light, metres.
+inline constexpr double kFarAway = 1000;
 
 struct Scene {
   std::shared_ptr<const Geometry> geometry;

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "controller/design/geometric_layers.h"
+
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+
+#include "controller/core/picture_file.h"
+
+namespace chiaro::design {
+namespace {
+
+/// What every size shares. Immutable after construction.
+struct Twin {
+  studio::Studio studio;
+  GeometricOptions options;
+  std::shared_ptr<const twin::Geometry> geometry;
+  std::shared_ptr<const render::Tracer> tracer;
+  double gain = 1;
+  core::Picture measured_ambient;  ///< empty unless the studio has one
+};
+
+class GeometricLayers : public Layers {
+ public:
+  GeometricLayers(const Twin& twin, core::Size size)
+      : twin_(twin),
+        view_(render::see(twin.tracer, twin.studio.main_camera(), size)),
+        planes_(core::planes(view_.buffer)),
+        ambient_(make_ambient()) {}
+
+  core::Size size() const override { return view_.buffer.size; }
+  const core::GeometryPlanes* geometry() const override { return &planes_; }
+  const core::Picture& ambient() const override { return ambient_; }
+
+  void luminance(std::size_t fixture, const core::FixtureState& state, Accuracy accuracy,
+                 core::Plane& out) const override {
+    core::Layer layer;
+    colour(fixture, state, accuracy, layer);
+    const core::Plane diffuse = core::luminance(layer.diffuse);
+    out = core::luminance(layer.specular);
+    for (std::size_t i = 0; i < out.values.size(); ++i) out.values[i] += diffuse.values[i];
+  }
+
+  void colour(std::size_t fixture, const core::FixtureState& state, Accuracy,
+              core::Layer& out) const override {
+    out = render::layer(view_, light(fixture, state), twin_.gain);
+  }
+
+  void visibility(std::size_t fixture, const core::FixtureState& state, Accuracy,
+                  core::Plane& out) const override {
+    out = render::visibility(view_, light(fixture, state));
+  }
+
+  std::string infeasible(const studio::Rig& rig, std::size_t fixture) const override {
+    return twin::infeasible(twin_.studio, *twin_.geometry, rig, fixture);
+  }
+
+ private:
+  twin::Light light(std::size_t fixture, const core::FixtureState& state) const {
+    return twin::light(twin_.studio.fixtures[fixture], state, twin_.geometry->aim,
+                       twin_.studio.exposure.white_balance);
+  }
+
+  /// Uncontrolled practicals burn as the file says, whatever is designed.
+  core::Picture make_ambient() const {
+    const studio::Studio& studio = twin_.studio;
+    twin::Scene scene = twin::lit_by(studio, twin_.geometry, studio::placed_rig(studio));
+    for (std::size_t i = 0; i < studio.fixtures.size(); ++i)
+      if (studio.fixtures[i].controlled) scene.levels[i] = 0;
+    if (twin_.measured_ambient.red.empty()) return render::picture(view_, scene);
+    // A measured frame holds the practicals already.
+    return core::resized(twin_.measured_ambient, view_.buffer.size);
+  }
+
+  const Twin& twin_;
+  render::View view_;
+  core::GeometryPlanes planes_;
+  core::Picture ambient_;
+};
+
+class GeometricSource : public LayersSource {
+ public:
+  explicit GeometricSource(Twin twin)
+      : twin_(std::move(twin)), arena_(std::max(1, twin_.options.threads)) {}
+
+  const Layers& at(core::Size size) const override {
+    const std::lock_guard lock(mutex_);
+    auto& entry = sizes_[{size.width, size.height}];
+    // The arena is isolated: a thread that waits here for rows must not pick up a planner's task
+    // that asks for this lock again.
+    if (!entry)
+      arena_.execute([&] { entry = std::make_unique<GeometricLayers>(twin_, size); });
+    return *entry;
+  }
+
+  const Twin& twin() const { return twin_; }
+
+ private:
+  Twin twin_;
+  mutable tbb::task_arena arena_;
+  mutable std::mutex mutex_;
+  mutable std::map<std::pair<int, int>, std::unique_ptr<GeometricLayers>> sizes_;
+};
+
+core::Result<core::Picture> read_linear(const std::filesystem::path& file) {
+  if (file.extension() == ".exr") return core::read_exr(file);
+  auto picture = core::read_picture(file);
+  if (!picture) return picture.problems();
+  return core::linear(*picture);
+}
+
+}  // namespace
+
+core::Result<std::unique_ptr<LayersSource>> geometric_layers(const studio::Studio& studio,
+                                                             const GeometricOptions& options) {
+  if (studio.cameras.empty())
+    return core::Problem{{studio.file.string(), 0, 0}, "the studio has no camera", "add one: main"};
+  Twin twin;
+  twin.studio = studio;
+  twin.options = options;
+  auto geometry = twin::build_geometry(studio, options.mesh_cache);
+  if (!geometry) return geometry.problems();
+  twin.geometry = *geometry;
+  if (studio.ambient && !studio.ambient->measured.empty()) {
+    auto frame = read_linear(studio.ambient->measured);
+    if (!frame) return frame.problems();
+    twin.measured_ambient = *std::move(frame);
+  }
+  tbb::task_arena arena(std::max(1, options.threads));
+  arena.execute([&] { twin.tracer = std::make_shared<const render::Tracer>(twin.geometry); });
+  twin.gain = studio::exposure_gain(studio.exposure, studio.main_camera());
+  return std::unique_ptr<LayersSource>(std::make_unique<GeometricSource>(std::move(twin)));
+}
+
+std::shared_ptr<const render::Tracer> tracer_of(const LayersSource& source) {
+  const auto* ours = dynamic_cast<const GeometricSource*>(&source);
+  return ours != nullptr ? ours->twin().tracer : nullptr;
+}
+
+}  // namespace chiaro::design
