@@ -62,7 +62,7 @@ core::Result<std::shared_ptr<const Geometry>> build_geometry(const studio::Studi
                                                              const std::filesystem::path& cache);
 
 /// Where the eyes of the shipped bust are, as a part of its height from the base.
-inline constexpr double kEyesOfBust = 0.60;
+inline constexpr double kEyesOfBust = 0.8052;
 
 /// The rectangle that stands for a background plane: centre, unit normal, and the vectors from the
 /// centre to the middle of its right and upper edge. `right` x `up` points along the normal.
