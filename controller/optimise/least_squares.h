@@ -9,9 +9,10 @@
 
 namespace chiaro::optimise {
 
-/// Q is n x n row-major, symmetric positive semi-definite (a tiny ridge is added where a column is
-/// 0). Exact to 1e-9 of the bounds' width. No allocation beyond the answer.
-/// `start` may be empty. Complexity: O(n^2) per sweep, a few sweeps.
+/// Q is n x n row-major, symmetric positive semi-definite (a ridge of 1e-12 of each diagonal keeps
+/// equal columns apart; a variable whose column is 0 stays where it starts). Exact to 1e-9 of the
+/// bounds' width where Q is well conditioned. Up to 32 variables nothing but the answer is
+/// allocated. `start` may be empty: every variable then starts at its least.
 std::vector<double> bounded_least_squares(std::span<const double> q_matrix,
                                           std::span<const double> q_vector,
                                           std::span<const core::Range> bounds,
