@@ -5,6 +5,9 @@
 #include <cmath>
 #include <sstream>
 
+#include "controller/core/random.h"
+#include "controller/core/units.h"
+
 namespace chiaro::simulator {
 namespace {
 
@@ -68,8 +71,13 @@ Character character(const Departures& departures, std::uint64_t seed, std::size_
   return c;
 }
 
-Lamp::Lamp(const studio::Fixture& fixture, Character character)
-    : character_(std::move(character)), asked_(fixture.initial), follows_(fixture.initial) {}
+Lamp::Lamp(const core::FixtureState& initial, Character character)
+    : character_(std::move(character)) {
+  for (const auto& dof : core::dofs())
+    if (!core::is_placement(dof.dof) && initial.has(dof.dof))
+      asked_.set(dof.dof, initial.get(dof.dof));
+  follows_ = asked_;
+}
 
 void Lamp::put(const core::FixtureState& placement) {
   placed_ = placement;
@@ -84,7 +92,7 @@ void Lamp::put(const core::FixtureState& placement) {
 void Lamp::advance(double seconds) {
   const double share = character_.lag_s > 0 ? 1 - std::exp(-seconds / character_.lag_s) : 1;
   for (const auto& dof : core::dofs()) {
-    if (!asked_.has(dof.dof)) continue;
+    if (!asked_.has(dof.dof) || core::is_placement(dof.dof)) continue;
     const double from = follows_.get(dof.dof, asked_.get(dof.dof));
     follows_.set(dof.dof, from + share * (asked_.get(dof.dof) - from));
   }

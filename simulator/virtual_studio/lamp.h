@@ -5,15 +5,11 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "controller/core/dof.h"
-#include "controller/core/geometry.h"
-#include "controller/core/random.h"
 #include "controller/core/result.h"
-#include "controller/studio/studio.h"
 
 namespace chiaro::simulator {
 
@@ -46,7 +42,8 @@ Character character(const Departures& departures, std::uint64_t seed, std::size_
 /// Lighting units: fractions of the data sheet's full output. One thread at a time.
 class Lamp {
  public:
-  Lamp(const studio::Fixture& fixture, Character character);
+  /// `initial`: what it does until it is asked for anything.
+  Lamp(const core::FixtureState& initial, Character character);
 
   /// What the wire asks for; DOFs that it does not name stay as they are.
   void ask(const core::FixtureState& state) { asked_.overlay(state); }

@@ -25,10 +25,12 @@ bool moved_by_hand(const studio::Fixture& fixture) {
 VirtualStage::VirtualStage(const studio::Studio& studio, const core::AimFrame& aim,
                            const Departures& departures, std::uint64_t seed)
     : studio_(studio), aim_(aim) {
-  const auto rig = studio::placed_rig(studio);
+  auto rig = studio::placed_rig(studio);
   for (std::size_t i = 0; i < studio.fixtures.size(); ++i) {
-    lamps_.emplace_back(studio.fixtures[i], character(departures, seed, i));
-    lamps_[i].ask(rig.states[i]);
+    // A lamp on a wire that says nothing is dark.
+    if (!std::holds_alternative<studio::NoPatch>(studio.fixtures[i].patch))
+      rig.states[i].set(Dof::intensity, 0);
+    lamps_.emplace_back(rig.states[i], character(departures, seed, i));
     put_.push_back(placement_of(rig.states[i]));
     lamps_[i].put(put_[i]);
   }

@@ -16,7 +16,7 @@ core::FixtureState at_level(double level) {
 }
 
 Lamp lamp(const Departures& departures) {
-  return Lamp(studio::Fixture{}, character(departures, 7, 3));
+  return Lamp(core::FixtureState{}, character(departures, 7, 3));
 }
 
 TEST(Lamp, WithoutDeparturesDoesExactlyWhatItIsAsked) {
