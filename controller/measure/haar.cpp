@@ -22,7 +22,7 @@ double pyramid(const core::Plane& square, Keep keep) {
   int level = haar_levels(square.size.width) - 1;
   for (std::size_t half = side / 2; half >= 1; half /= 2, --level) {
     const auto [h, v] = keep(level, half);
-    kernels::haar_level(in, half, next.data(), h, v);
+    kernels::haar_level(in, half, half, 1, next.data(), h, v);
     here.swap(next);
     in = here.data();
   }
@@ -91,24 +91,6 @@ double haar_distance_as_printed(const HaarSpectrum& a, const HaarSpectrum& b) {
     nodes += static_cast<double>(a.horizontal[level].size());
   }
   return std::sqrt(sum) / nodes;
-}
-
-std::vector<float> scaled_haar(const core::Plane& values) {
-  const int side = values.size.width;
-  const auto count = values.values.size();
-  std::vector<float> out(1 + 2 * (count - 1) / 3);
-  // Level l starts after the mean and the h and v of all coarser levels.
-  const auto begin = [](int level) { return 1 + 2 * ((std::size_t{1} << (2 * level)) - 1) / 3; };
-  const double mean = pyramid(values, [&](int level, std::size_t nodes) {
-    float* h = out.data() + begin(level);
-    return std::pair(h, h + nodes * nodes);
-  });
-  out[0] = static_cast<float>(mean * std::sqrt(haar_mean_weight(side)));
-  for (int level = 0; level < haar_levels(side); ++level) {
-    const auto scale = static_cast<float>(std::sqrt(haar_level_weight(side, level)));
-    for (std::size_t i = begin(level); i < begin(level + 1); ++i) out[i] *= scale;
-  }
-  return out;
 }
 
 }  // namespace chiaro::measure

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Haar spectrum as one array, its coefficients scaled so that the plain squared distance of two
-// arrays is the squared wavelet distance: what the Gram forms are built from.
+// How the Haar levels weigh in the wavelet distance; shared by the distance and its Gram form.
 #pragma once
-
-#include <vector>
-
-#include "controller/core/picture.h"
 
 namespace chiaro::measure {
 
@@ -14,9 +9,5 @@ int haar_levels(int side);
 /// The mean's and each coefficient's weight in the squared distance.
 double haar_mean_weight(int side);
 double haar_level_weight(int side, int level);
-
-/// Scaled coefficients of a square plane whose side is a power of two: mean, then per level from
-/// the whole square down h and v. side * side * 2 / 3 numbers or so.
-std::vector<float> scaled_haar(const core::Plane& values);
 
 }  // namespace chiaro::measure

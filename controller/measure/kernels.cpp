@@ -90,20 +90,24 @@ HWY_INLINE Gradient sobel(const float* a, const float* b, const float* c) {
   return {hn::Mul(gx, eighth), hn::Mul(gy, eighth)};
 }
 
-void SobelRow(const float* above, const float* row, const float* below, std::size_t n,
-              float* along_x, float* along_y) {
+void MaskedSobelRow(const float* above, const float* row, const float* below, const float* mask,
+                    std::size_t n, float* value, float* along_x, float* along_y) {
   const D d;
   const std::size_t lanes = hn::Lanes(d);
   std::size_t i = 0;
   for (; i + lanes <= n; i += lanes) {
     const Gradient g = sobel(above + i, row + i, below + i);
-    hn::StoreU(g.x, d, along_x + i);
-    hn::StoreU(g.y, d, along_y + i);
+    const V m = hn::LoadU(d, mask + i);
+    hn::StoreU(hn::Mul(m, hn::LoadU(d, row + i)), d, value + i);
+    hn::StoreU(hn::Mul(m, g.x), d, along_x + i);
+    hn::StoreU(hn::Mul(m, g.y), d, along_y + i);
   }
   for (; i < n; ++i) {
     const float *a = above + i, *b = row + i, *c = below + i;
-    along_x[i] = (2 * (b[1] - b[-1]) + ((a[1] - a[-1]) + (c[1] - c[-1]))) * 0.125f;
-    along_y[i] = (2 * (c[0] - a[0]) + ((c[-1] - a[-1]) + (c[1] - a[1]))) * 0.125f;
+    const float m = mask[i] * 0.125f;
+    value[i] = mask[i] * b[0];
+    along_x[i] = (2 * (b[1] - b[-1]) + ((a[1] - a[-1]) + (c[1] - c[-1]))) * m;
+    along_y[i] = (2 * (c[0] - a[0]) + ((c[-1] - a[-1]) + (c[1] - a[1]))) * m;
   }
 }
 
@@ -261,28 +265,37 @@ class Pass {
 
 PassSums RunPass(const PassInput& input) { return Pass(input).run(); }
 
-void HaarLevel(const float* in, std::size_t side, float* mean, float* horizontal, float* vertical) {
-  const D d;
-  const std::size_t lanes = hn::Lanes(d);
-  const V half = hn::Set(d, 0.5f), quarter = hn::Set(d, 0.25f);
-  for (std::size_t y = 0; y < side; ++y) {
-    const float *up = in + 4 * y * side, *low = up + 2 * side;
-    const std::size_t out = y * side;
-    std::size_t x = 0;
-    for (; x + lanes <= side; x += lanes) {
-      V ul, ur, ll, lr;
-      hn::LoadInterleaved2(d, up + 2 * x, ul, ur);
-      hn::LoadInterleaved2(d, low + 2 * x, ll, lr);
-      const V left = hn::Add(ul, ll), right = hn::Add(ur, lr);
-      hn::StoreU(hn::Mul(hn::Add(left, right), quarter), d, mean + out + x);
-      hn::StoreU(hn::Mul(hn::Sub(left, right), half), d, horizontal + out + x);
-      hn::StoreU(hn::Mul(hn::Sub(hn::Add(ul, ur), hn::Add(ll, lr)), half), d, vertical + out + x);
-    }
-    for (; x < side; ++x) {
+/// With `d` of fewer lanes than the widest, the narrow levels at the top are vectors too.
+template <class DN>
+HWY_INLINE std::size_t haar_row(DN d, const float* up, const float* low, std::size_t begin,
+                                std::size_t width, float scale, float* mean, float* horizontal,
+                                float* vertical) {
+  const auto half = hn::Set(d, 0.5f * scale), quarter = hn::Set(d, 0.25f);
+  std::size_t x = begin;
+  for (; x + hn::Lanes(d) <= width; x += hn::Lanes(d)) {
+    hn::Vec<DN> ul, ur, ll, lr;
+    hn::LoadInterleaved2(d, up + 2 * x, ul, ur);
+    hn::LoadInterleaved2(d, low + 2 * x, ll, lr);
+    const auto left = hn::Add(ul, ll), right = hn::Add(ur, lr);
+    hn::StoreU(hn::Mul(hn::Add(left, right), quarter), d, mean + x);
+    hn::StoreU(hn::Mul(hn::Sub(left, right), half), d, horizontal + x);
+    hn::StoreU(hn::Mul(hn::Sub(hn::Add(ul, ur), hn::Add(ll, lr)), half), d, vertical + x);
+  }
+  return x;
+}
+
+void HaarLevel(const float* in, std::size_t width, std::size_t height, float scale, float* mean,
+               float* horizontal, float* vertical) {
+  for (std::size_t y = 0; y < height; ++y) {
+    const float *up = in + 4 * y * width, *low = up + 2 * width;
+    float *m = mean + y * width, *h = horizontal + y * width, *v = vertical + y * width;
+    std::size_t x = haar_row(D(), up, low, 0, width, scale, m, h, v);
+    x = haar_row(hn::CappedTag<float, 4>(), up, low, x, width, scale, m, h, v);
+    for (; x < width; ++x) {
       const float ul = up[2 * x], ur = up[2 * x + 1], ll = low[2 * x], lr = low[2 * x + 1];
-      mean[out + x] = ((ul + ll) + (ur + lr)) * 0.25f;
-      horizontal[out + x] = ((ul + ll) - (ur + lr)) * 0.5f;
-      vertical[out + x] = ((ul + ur) - (ll + lr)) * 0.5f;
+      m[x] = ((ul + ll) + (ur + lr)) * 0.25f;
+      h[x] = ((ul + ll) - (ur + lr)) * (0.5f * scale);
+      v[x] = ((ul + ur) - (ll + lr)) * (0.5f * scale);
     }
   }
 }
@@ -355,7 +368,7 @@ HWY_AFTER_NAMESPACE();
 namespace chiaro::measure::kernels {
 
 HWY_EXPORT(WorkingScalar);
-HWY_EXPORT(SobelRow);
+HWY_EXPORT(MaskedSobelRow);
 HWY_EXPORT(RunPass);
 HWY_EXPORT(HaarLevel);
 HWY_EXPORT(AddGram);
@@ -364,13 +377,13 @@ void working_scalar(const float* from, float* to, std::size_t n) {
   HWY_DYNAMIC_DISPATCH(WorkingScalar)(from, to, n);
 }
 PassSums pass(const PassInput& input) { return HWY_DYNAMIC_DISPATCH(RunPass)(input); }
-void haar_level(const float* in, std::size_t side, float* mean, float* horizontal,
-                float* vertical) {
-  HWY_DYNAMIC_DISPATCH(HaarLevel)(in, side, mean, horizontal, vertical);
+void haar_level(const float* in, std::size_t width, std::size_t height, float scale, float* mean,
+                float* horizontal, float* vertical) {
+  HWY_DYNAMIC_DISPATCH(HaarLevel)(in, width, height, scale, mean, horizontal, vertical);
 }
-void sobel_row(const float* above, const float* row, const float* below, std::size_t n,
-               float* along_x, float* along_y) {
-  HWY_DYNAMIC_DISPATCH(SobelRow)(above, row, below, n, along_x, along_y);
+void masked_sobel_row(const float* above, const float* row, const float* below, const float* mask,
+                      std::size_t n, float* value, float* along_x, float* along_y) {
+  HWY_DYNAMIC_DISPATCH(MaskedSobelRow)(above, row, below, mask, n, value, along_x, along_y);
 }
 void add_gram(std::span<const float* const> rows, std::size_t n, double* gram) {
   HWY_DYNAMIC_DISPATCH(AddGram)(rows, n, gram);

@@ -34,12 +34,15 @@ struct PassSums {
 };
 PassSums pass(const PassInput& input);
 
-/// One level of the Haar pyramid: `in` is 2 side x 2 side, the outputs side x side.
-void haar_level(const float* in, std::size_t side, float* mean, float* horizontal, float* vertical);
+/// One level of the Haar pyramid: `in` is 2 width x 2 height, the outputs width x height. The
+/// coefficients, not the mean, are multiplied by `scale`.
+void haar_level(const float* in, std::size_t width, std::size_t height, float scale, float* mean,
+                float* horizontal, float* vertical);
 
-/// Sobel / 8 along x and y of one row; each input row is readable from [-1] to [n].
-void sobel_row(const float* above, const float* row, const float* below, std::size_t n,
-               float* along_x, float* along_y);
+/// Sobel / 8 along x and y of one row and the row itself, all times `mask`. Each of the three input
+/// rows is readable from [-1] to [n].
+void masked_sobel_row(const float* above, const float* row, const float* below, const float* mask,
+                      std::size_t n, float* value, float* along_x, float* along_y);
 
 /// gram[j * rows.size() + k] += sum over n of rows[j] * rows[k], for k <= j.
 void add_gram(std::span<const float* const> rows, std::size_t n, double* gram);
