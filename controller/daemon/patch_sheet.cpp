@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "controller/core/hash.h"
@@ -70,6 +71,9 @@ std::string output_line(const studio::Output& output) {
   return line + "mock (no wire)";
 }
 
+/// A degree that went through radians comes back as 44.99999999999999: say 45.
+double clean(double value) { return std::round(value * 1e6) / 1e6; }
+
 nlohmann::json patch_json(const Fixture& fixture) {
   const int slots = fixture.profile.modes[fixture.mode].footprint;
   if (const auto* dmx = std::get_if<studio::DmxPatch>(&fixture.patch))
@@ -82,8 +86,8 @@ nlohmann::json patch_json(const Fixture& fixture) {
 nlohmann::json fixture_json(const Fixture& fixture, const core::Spherical& place) {
   nlohmann::json controls = nlohmann::json::object();
   for (const auto& [dof, range] : fixture.ranges())
-    controls[std::string(core::info(dof).file_name)] = {core::file_value(dof, range.least),
-                                                        core::file_value(dof, range.most)};
+    controls[std::string(core::info(dof).file_name)] = {clean(core::file_value(dof, range.least)),
+                                                        clean(core::file_value(dof, range.most))};
   nlohmann::json by_hand = nlohmann::json::object();
   for (const studio::HandBinding& binding : fixture.by_hand)
     by_hand[std::string(core::info(binding.dof).file_name)] = studio::name_of(binding.kind);
@@ -95,9 +99,9 @@ nlohmann::json fixture_json(const Fixture& fixture, const core::Spherical& place
           {"output_cd", fixture.fitted_output().value},
           {"mount", studio::name_of(fixture.mount)},
           {"placed",
-           {{"azimuth_deg", core::degrees(place.azimuth)},
-            {"elevation_deg", core::degrees(place.elevation)},
-            {"distance_m", place.distance}}},
+           {{"azimuth_deg", clean(core::degrees(place.azimuth))},
+            {"elevation_deg", clean(core::degrees(place.elevation))},
+            {"distance_m", clean(place.distance)}}},
           {"in_words", studio::place_in_words(place)},
           {"limits",
            {{"most", fixture.limits.most},

@@ -43,12 +43,13 @@ std::uint64_t fingerprint(const std::string& yaml, const profiles::Shelf& shelf)
 
 core::Result<Loaded> parse(const std::string& yaml, const std::string& name,
                            const std::filesystem::path& base, const Folders& folders) {
-  const auto tree = parse_tree(yaml, name);
-  if (!tree) return tree.problems();
+  const auto document = parse_tree(yaml, name);
+  if (!document) return document.problems();
   Report report(name);
+  report.add(document->problems);
   Context context{base, folders, report};
   profiles::Shelf shelf(folders);
-  Loaded loaded{read_sections(*tree, context, shelf), {}};
+  Loaded loaded{read_sections(document->root, context, shelf), {}};
   checks::check_addresses(loaded.studio, report);
   checks::check_outputs(loaded.studio, report);
   checks::check_places(loaded.studio, report);

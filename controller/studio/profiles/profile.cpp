@@ -75,10 +75,11 @@ core::Result<std::string> profile_text(const std::string& name, const Folders& f
 
 core::Result<Profile> parse_profile(const std::string& yaml, const std::string& name,
                                     const std::string& file) {
-  const auto tree = parse_tree(yaml, file);
-  if (!tree) return tree.problems();
+  const auto document = parse_tree(yaml, file);
+  if (!document) return document.problems();
   Report report(file);
-  Profile profile = read_profile(*tree, name, report);
+  report.add(document->problems);
+  Profile profile = read_profile(document->root, name, report);
   if (report.any_error()) return report.sorted();
   return profile;
 }

@@ -52,7 +52,7 @@ std::string unit_remedy(const Tree& tree, const Parsed& parsed, Measure measure)
 bool within(const Tree& tree, double value, core::Range bounds, const std::string& expected,
             Report& report) {
   if (bounds.contains(value)) return true;
-  unexpected(tree, expected, "the value is out of range", report);
+  unexpected(tree, expected, "correct the value", report);
   return false;
 }
 

@@ -46,6 +46,7 @@ class Builder : public YAML::EventHandler {
     nodes_ += named->second.nodes;
     check_size(mark);
     Tree copy = named->second.tree;
+    if (!open_.empty()) copy.label = label_here(open_.back());
     copy.line = mark.line + 1;
     copy.column = mark.column + 1;
     place(std::move(copy));
@@ -84,11 +85,16 @@ class Builder : public YAML::EventHandler {
       refuse(mark, "the file holds more than " + std::to_string(kMostNodes) + " values",
              "a studio is far smaller: is this the right file?");
   }
+  static std::string label_here(const Open& parent) {
+    if (parent.tree.kind == Tree::Kind::sequence) return parent.tree.label;
+    return parent.expects_value ? parent.tree.keys.back().text : "";
+  }
   Tree node(Tree::Kind kind, const YAML::Mark& mark) {
     ++nodes_;
     check_size(mark);
     Tree tree;
     tree.kind = kind;
+    if (!open_.empty()) tree.label = label_here(open_.back());
     tree.line = mark.line + 1;
     tree.column = mark.column + 1;
     return tree;
@@ -175,7 +181,7 @@ std::optional<core::Problem> not_text(const std::string& yaml, const std::string
 
 }  // namespace
 
-core::Result<Tree> parse_tree(const std::string& yaml, const std::string& file) try {
+core::Result<Document> parse_tree(const std::string& yaml, const std::string& file) try {
   if (const auto problem = not_text(yaml, file)) return *problem;
   std::istringstream stream(yaml);
   YAML::Parser parser(stream);
@@ -183,11 +189,10 @@ core::Result<Tree> parse_tree(const std::string& yaml, const std::string& file) 
   if (!parser.HandleNextDocument(builder) || !builder.root)
     return whole_file(file, "the file holds nothing but comments",
                       "`chiaro new` writes a first one");
-  if (!builder.problems.empty()) return builder.problems;
   if (parser)
     return whole_file(file, "the file holds a second document after '---' or '...'",
                       "keep one studio in one file");
-  return std::move(*builder.root);
+  return Document{std::move(*builder.root), std::move(builder.problems)};
 } catch (const Refusal& refusal) {
   return refusal.problem;
 } catch (const YAML::Exception& error) {

@@ -31,8 +31,13 @@ inline constexpr std::size_t kMostBytes = 2u << 20;
 inline constexpr std::size_t kMostNodes = 100'000;
 inline constexpr std::size_t kMostDepth = 40;
 
-/// The one document in `yaml`; `file` stands in the places of problems. Duplicate keys, cycles,
-/// bytes that are not UTF-8 text and anything beyond the bounds above are refused.
-core::Result<Tree> parse_tree(const std::string& yaml, const std::string& file);
+/// A tree and what is wrong with it that need not end the reading: keys that stand twice.
+struct Document {
+  Tree root;
+  core::Problems problems;
+};
+/// The one document in `yaml`; `file` stands in the places of problems. Cycles, bytes that are not
+/// UTF-8 text and anything beyond the bounds above are refused.
+core::Result<Document> parse_tree(const std::string& yaml, const std::string& file);
 
 }  // namespace chiaro::studio::reading
