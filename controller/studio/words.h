@@ -11,6 +11,9 @@ namespace chiaro::studio {
 
 /// "47° camera left, 38° up, 1.6 m"; behind the subject it says so.
 std::string place_in_words(const core::Spherical& place);
+/// And back, as people type it: "47 left, 38 up, 1.6 m", "47° camera left, level, 160 cm",
+/// "straight behind, 30 up, 2 m". The problem is one sentence that says what is missing.
+core::Result<core::Spherical> place_from_words(const std::string& words);
 /// The kind of mount: "stand", "fixed", "moving head".
 std::string_view name_of(const Mount& mount);
 /// "1.001-004" as patch sheets print it, "bus rail: 40-41", or "by hand".

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `chiaro new` learns from a person, and the studio file that says it.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "controller/core/geometry.h"
+#include "controller/studio/load.h"
+
+namespace chiaro::daemon::interview {
+
+struct Lamp {
+  std::string name, role, profile, mode;
+  int universe = 1, address = 1, slots = 1;
+  core::Spherical place;
+  bool on_stand = true;  ///< else it hangs where it hangs
+};
+
+struct Answers {
+  std::string studio;
+  std::string mesh;             ///< empty = a person, for whom the bust stands in
+  double eye_height = 1.25;     ///< of the person
+  double height = 1, base = 0;  ///< of the mesh: how tall, and how high its base stands
+  double ceiling = 3;
+  std::optional<double> wall;  ///< metres behind the sitter
+  double camera_distance = 2.6, camera_height = 1.25, camera_fov_deg = 22;
+  std::string camera_source;  ///< as in Camera::source; empty = none
+  double grey_card_lux = 800, white_balance_k = 5600;
+  std::string interface;  ///< empty = no wire yet
+  std::vector<Lamp> lamps;
+
+  double aim_height() const { return mesh.empty() ? eye_height : base + 0.75 * height; }
+  /// From where azimuth, elevation and distance are measured, as well as can be known without
+  /// looking at the mesh.
+  core::AimFrame aim() const;
+};
+
+class Dialogue;
+/// Asks everything. Nothing when the input ended before the last question. `base` is the folder of
+/// the file to be: relative paths are meant from there.
+std::optional<Answers> interview(Dialogue& dialogue, const std::filesystem::path& base,
+                                 const studio::Folders& folders);
+
+std::string studio_yaml(const Answers& answers);
+
+}  // namespace chiaro::daemon::interview
