@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program chiaro-draw: makes the shipped moods' pictures and targets from their recipes, and
+// the bust from its model. Everything it writes can be thrown away and drawn again.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "controller/measure/measure.h"
+#include "controller/ports/world.h"
+#include "simulator/moods/stage.h"
+#include "simulator/path_tracer/path_tracer.h"
+
+namespace chiaro::simulator {
+
+ports::Exit run_draw(const std::vector<std::string>& arguments, ports::World world);
+
+struct DrawnMood {
+  core::EncodedPicture picture;
+  measure::Targets targets;  ///< of the 3D exemplar: a clean 256 x 256 picture without antialiasing
+  double noise = 0;          ///< root mean square error of the picture's linear luminance
+};
+/// At the studio's main camera's size unless `size` is not empty.
+DrawnMood drawn(const Stage& stage, core::Size size, const TraceOptions& options);
+
+}  // namespace chiaro::simulator
