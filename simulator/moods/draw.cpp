@@ -2,7 +2,6 @@
 #include "simulator/moods/draw.h"
 
 #include <CLI/CLI.hpp>
-
 #include <algorithm>
 #include <fstream>
 #include <ostream>
@@ -50,8 +49,10 @@ ports::Exit refused(const core::Problems& problems, ports::World& world) {
 core::Result<core::Done> write_text(const fs::path& file, const std::string& text) {
   std::ofstream out(file, std::ios::binary);
   out << text;
-  if (!out) return core::Problem{{file.string()}, "this file cannot be written",
-                                 "check the folder's permissions and the disk"};
+  if (!out)
+    return core::Problem{{file.string()},
+                         "this file cannot be written",
+                         "check the folder's permissions and the disk"};
   return core::Done{};
 }
 
@@ -86,13 +87,13 @@ core::Result<core::Done> draw_one(const std::string& name, const Wish& wish, por
   const studio::Folders folders{world.config_folder};
   const auto recipe = load_recipe(folders.moods() / name / "recipe.yaml", folders);
   if (!recipe) return recipe.problems();
-  const auto stage = set_up(*recipe, folders, world.state_folder / "meshes");
-  if (!stage) return stage.problems();
+  const auto set = set_up(*recipe, folders, world.state_folder / "meshes");
+  if (!set) return set.problems();
   Line line(world, name);
   TraceOptions options = wish.trace;
   options.stop = &world.stop;
   options.progress = [&line](double done) { line.progress(done); };
-  const DrawnMood mood = drawn(*stage, wish.size, options);
+  const DrawnMood mood = drawn(*set, wish.size, options);
   if (world.stop) return core::Problem{{}, name + " was not finished", "start again"};
   line.finish(mood.noise);
   return write_mood(wish.out / name, *recipe, mood);
@@ -125,24 +126,24 @@ void declare(CLI::App& app, Wish& wish, std::vector<int>& size) {
 
 }  // namespace
 
-DrawnMood drawn(const Stage& stage, core::Size size, const TraceOptions& options) {
-  const auto tracer = std::make_shared<const render::Tracer>(stage.scene.geometry);
-  const studio::Camera& camera = stage.studio.main_camera();
+DrawnMood drawn(const StudioSet& set, core::Size size, const TraceOptions& options) {
+  const auto tracer = std::make_shared<const render::Tracer>(set.scene.geometry);
+  const studio::Camera& camera = set.studio.main_camera();
   if (size.pixels() == 0) size = camera.size;
-  const Traced picture = trace(*tracer, stage.scene, camera, size, options);
+  const Traced picture = trace(*tracer, set.scene, camera, size, options);
   TraceOptions clean = options;
   clean.antialias = false;
   clean.progress = nullptr;
-  const Traced measured = trace(*tracer, stage.scene, camera, kMeasured, clean);
+  const Traced measured = trace(*tracer, set.scene, camera, kMeasured, clean);
   const render::View view = render::see(tracer, camera, kMeasured);
   const measure::PixelMap map = measure::pixel_map(core::planes(view.buffer));
-  const core::Plane lit = lit_by_key(view, stage.scene);
-  const measure::Components components = measure::components(
-      measure::working_scalar(core::luminance(measured.picture)), map, &lit);
+  const core::Plane lit = lit_by_key(view, set.scene);
+  const measure::Components components =
+      measure::components(measure::working_scalar(core::luminance(measured.picture)), map, &lit);
   return {core::encoded(picture.picture), measure::targets_of(components, true), picture.noise};
 }
 
-ports::Exit run_draw(const std::vector<std::string>& arguments, ports::World world) {
+ports::Exit run_draw(const std::vector<std::string>& arguments, ports::World& world) {
   CLI::App app{"Draws the shipped moods from their recipes (config/moods/*/recipe.yaml)",
                "chiaro-draw"};
   Wish wish;
@@ -172,9 +173,10 @@ ports::Exit run_draw(const std::vector<std::string>& arguments, ports::World wor
   for (const std::string& name : wish.only) {
     if (std::find(all.begin(), all.end(), name) == all.end()) {
       const std::string near = core::nearest_name(name, all);
-      problems.push_back({{}, "there is no recipe for a mood called '" + name + "'",
-                          near.empty() ? "the recipes are in " + moods.string()
-                                       : "did you mean '" + near + "'?"});
+      problems.push_back(
+          {{},
+           "there is no recipe for a mood called '" + name + "'",
+           near.empty() ? "the recipes are in " + moods.string() : "did you mean '" + near + "'?"});
       continue;
     }
     const auto done = draw_one(name, wish, world);

@@ -8,12 +8,12 @@
 
 #include "controller/measure/measure.h"
 #include "controller/ports/world.h"
-#include "simulator/moods/stage.h"
+#include "simulator/moods/studio_set.h"
 #include "simulator/path_tracer/path_tracer.h"
 
 namespace chiaro::simulator {
 
-ports::Exit run_draw(const std::vector<std::string>& arguments, ports::World world);
+ports::Exit run_draw(const std::vector<std::string>& arguments, ports::World& world);
 
 struct DrawnMood {
   core::EncodedPicture picture;
@@ -21,6 +21,6 @@ struct DrawnMood {
   double noise = 0;          ///< root mean square error of the picture's linear luminance
 };
 /// At the studio's main camera's size unless `size` is not empty.
-DrawnMood drawn(const Stage& stage, core::Size size, const TraceOptions& options);
+DrawnMood drawn(const StudioSet& set, core::Size size, const TraceOptions& options);
 
 }  // namespace chiaro::simulator

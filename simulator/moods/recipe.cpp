@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulator/moods/recipe.h"
 
+#include "controller/studio/reading/files.h"
 #include "controller/studio/reading/scalars.h"
 #include "controller/studio/reading/section.h"
 #include "controller/studio/reading/text.h"
-
-#include "controller/studio/reading/files.h"
 
 namespace chiaro::simulator {
 namespace {
@@ -144,7 +143,8 @@ void read_surfaces(Section& top, Recipe& recipe, Report& report) {
   const Tree* tree = top.find("background");
   if (tree == nullptr) return;
   if (tree->kind != Tree::Kind::mapping) {
-    report.error(*tree, "'background' gives planes of the studio a colour", "{wall: [0.1, 0.1, 0.1]}");
+    report.error(*tree, "'background' gives planes of the studio a colour",
+                 "{wall: [0.1, 0.1, 0.1]}");
     return;
   }
   for (std::size_t i = 0; i < tree->items.size(); ++i)

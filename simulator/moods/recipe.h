@@ -48,8 +48,7 @@ struct Recipe {
 };
 
 /// Every problem at once, each with its place.
-core::Result<Recipe> load_recipe(const std::filesystem::path& file,
-                                 const studio::Folders& folders);
+core::Result<Recipe> load_recipe(const std::filesystem::path& file, const studio::Folders& folders);
 core::Result<Recipe> parse_recipe(const std::string& yaml, const std::string& file_name,
                                   const studio::Folders& folders);
 

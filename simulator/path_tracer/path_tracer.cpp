@@ -10,8 +10,9 @@
 #include <tbb/task_arena.h>
 
 #include "controller/core/random.h"
+#include "controller/render/surface.h"
+#include "controller/twin/lights/light_model.h"
 #include "simulator/path_tracer/light_sample.h"
-#include "simulator/path_tracer/surface.h"
 
 namespace chiaro::simulator {
 namespace {
@@ -19,6 +20,9 @@ namespace {
 using core::Rgb;
 using core::Vec3;
 
+/// Metres that shadow and bounce rays start off the surface: above the rounding of a 10 m studio,
+/// below what a camera could see.
+constexpr double kLift = 2e-4;
 /// From here on a path survives by chance, in proportion to what it can still bring.
 constexpr int kSureBounces = 2;
 
@@ -71,6 +75,8 @@ Eye eye_of(const studio::Camera& camera, core::Size size) {
   return eye;
 }
 
+Vec3 lifted(const render::Surface& surface) { return surface.position + kLift * surface.face; }
+
 /// Cosine-weighted about the normal.
 Vec3 bounced(Vec3 normal, double u, double v) {
   const double sign = normal.z >= 0 ? 1 : -1;  // Duff et al. 2017: a basis without a branch
@@ -106,41 +112,42 @@ class Painter {
             Gain& gain) const {
     Rgb carried{scene_.exposure_gain, scene_.exposure_gain, scene_.exposure_gain};
     for (int bounce = 0;; ++bounce) {
-      const std::optional<Surface> surface = surface_along(tracer_, from, direction);
-      if (!surface) {
+      const render::Tracer::Hit hit = tracer_.closest(from, direction);
+      if (!hit.hit) {
         if (bounce > 0) gain.ambient = gain.ambient + carried * scene_.ambient_irradiance;
         return;
       }
+      const render::Surface surface = render::surface_at(tracer_.geometry(), hit, direction);
       const bool first = bounce == 0;
-      light_directly(*surface, carried, first, first ? even.get(2, sample) : random.uniform(),
+      light_directly(surface, -direction, carried, first,
+                     first ? even.get(2, sample) : random.uniform(),
                      first ? even.get(3, sample) : random.uniform(), gain);
-      carried = carried * surface->albedo;
+      carried = carried * surface.diffuse;
       if (bounce >= options_.bounces) {
         if (first) gain.ambient = gain.ambient + carried * scene_.ambient_irradiance;
         return;
       }
       if (bounce >= kSureBounces && !survives(carried, random)) return;
-      from = lifted(*surface);
-      direction = bounced(surface->normal, first ? even.get(4, sample) : random.uniform(),
+      from = lifted(surface);
+      direction = bounced(surface.normal, first ? even.get(4, sample) : random.uniform(),
                           first ? even.get(5, sample) : random.uniform());
-      if (core::dot(direction, surface->face) <= 0) return;
+      if (core::dot(direction, surface.face) <= 0) return;
     }
   }
 
  private:
-  void light_directly(const Surface& at, Rgb carried, bool first, double u, double v,
-                      Gain& gain) const {
+  void light_directly(const render::Surface& at, Vec3 viewer, Rgb carried, bool first, double u,
+                      double v, Gain& gain) const {
     for (const std::size_t i : lights_) {
       const twin::Light& light = scene_.lights[i];
       const LightSample lit = sample(light, at.position, u, v);
       const double facing = core::dot(at.normal, lit.towards);
       if (lit.lux <= 0 || facing <= 0 || core::dot(at.face, lit.towards) <= 0) continue;
       if (tracer_.blocked(lifted(at), lit.from)) continue;
-      Rgb seen = (facing * lit.lux) * at.albedo;
+      Rgb seen = (facing * lit.lux) * at.diffuse;
       if (first && at.specular > 0) {
-        const Vec3 half = core::unit(lit.towards + at.viewer);
-        const double shine = std::pow(std::max(0.0, core::dot(at.normal, half)), at.shininess);
-        const double highlight = at.specular * shine * lit.lux;
+        const double highlight =
+            at.specular * lit.lux * twin::highlight(at.normal, lit.towards, viewer, at.shininess);
         seen = seen + Rgb{highlight, highlight, highlight};
       }
       const Rgb brought = carried * light.colour * seen;

@@ -10,14 +10,14 @@
 
 namespace chiaro::simulator {
 
-struct Stage {
+struct StudioSet {
   studio::Studio studio;  ///< without fixtures: the recipe's lamps are in `scene`
   twin::Scene scene;      ///< lights in the recipe's order, levels all 1
 };
 
 /// `cache`: for the prepared mesh, empty = none.
-core::Result<Stage> set_up(const Recipe& recipe, const studio::Folders& folders,
-                           const std::filesystem::path& cache);
+core::Result<StudioSet> set_up(const Recipe& recipe, const studio::Folders& folders,
+                               const std::filesystem::path& cache);
 
 /// Candela with which a light of that shape and place gives `lux` on a surface at `target` that
 /// faces it.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "simulator/moods/stage.h"
+#include "simulator/moods/studio_set.h"
 
 #include <cmath>
 
@@ -86,26 +86,26 @@ double candela_for(const twin::Light& light, Vec3 target, double lux) {
   return given > 0 ? lux / given : 0;
 }
 
-core::Result<Stage> set_up(const Recipe& recipe, const studio::Folders& folders,
-                           const std::filesystem::path& cache) {
+core::Result<StudioSet> set_up(const Recipe& recipe, const studio::Folders& folders,
+                               const std::filesystem::path& cache) {
   auto loaded = studio::load_studio(recipe.studio, folders);
   if (!loaded) return loaded.problems();
-  Stage stage;
-  stage.studio = std::move(loaded->studio);
-  if (core::Problems problems = dress(stage.studio, recipe); !problems.empty()) return problems;
-  auto geometry = twin::build_geometry(stage.studio, cache);
+  StudioSet set;
+  set.studio = std::move(loaded->studio);
+  if (core::Problems problems = dress(set.studio, recipe); !problems.empty()) return problems;
+  auto geometry = twin::build_geometry(set.studio, cache);
   if (!geometry) return geometry.problems();
-  stage.scene = twin::lit_by(stage.studio, *geometry, {});
+  set.scene = twin::lit_by(set.studio, *geometry, {});
   for (const RecipeLamp& lamp : recipe.lamps) {
-    Aimed set = aimed(lamp, (*geometry)->aim, stage.studio.exposure.white_balance);
+    Aimed lit = aimed(lamp, (*geometry)->aim, set.studio.exposure.white_balance);
     const double lux =
         lamp.lux ? *lamp.lux : key_lux(recipe) / core::from_stops(*lamp.stops_below_key);
-    set.light.candela = candela_for(set.light, set.target, lux);
-    set.light.fixture = stage.scene.lights.size();
-    stage.scene.lights.push_back(set.light);
-    stage.scene.levels.push_back(1);
+    lit.light.candela = candela_for(lit.light, lit.target, lux);
+    lit.light.fixture = set.scene.lights.size();
+    set.scene.lights.push_back(lit.light);
+    set.scene.levels.push_back(1);
   }
-  return stage;
+  return set;
 }
 
 }  // namespace chiaro::simulator
