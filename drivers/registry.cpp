@@ -10,19 +10,11 @@ namespace chiaro::drivers {
   std::unique_ptr<ports::OutputPort> make(const OutputSettings& settings, \
                                           ports::Network& network);       \
   }
-#define CAMERA(name, summary)                                                               \
-  namespace name {                                                                          \
-  std::unique_ptr<ports::Camera> make(const CameraSettings& settings, ports::Clock& clock); \
-  }
 #include "drivers/drivers.def"
 
 namespace {
 constexpr OutputEntry kOutputs[] = {
 #define OUTPUT(name, summary) {#name, summary, name::make},
-#include "drivers/drivers.def"
-};
-constexpr CameraEntry kCameras[] = {
-#define CAMERA(name, summary) {#name, summary, name::make},
 #include "drivers/drivers.def"
 };
 }  // namespace
@@ -41,21 +33,6 @@ core::Result<std::unique_ptr<ports::OutputPort>> make_output(const std::string& 
   return core::Problem{{},
                        "there is no output driver '" + driver + "'",
                        near.empty() ? "" : "did you mean '" + near + "'?"};
-}
-
-std::span<const CameraEntry> cameras() { return kCameras; }
-
-core::Result<std::unique_ptr<ports::Camera>> make_camera(const CameraSettings& settings,
-                                                         ports::Clock& clock) {
-  const std::string scheme = settings.source.substr(0, settings.source.find(':'));
-  std::string known;
-  for (const CameraEntry& entry : kCameras) {
-    if (entry.name == scheme) return entry.make(settings, clock);
-    known += (known.empty() ? "" : ", ") + std::string(entry.name);
-  }
-  return core::Problem{{settings.source, 0, 0},
-                       "no camera driver knows '" + scheme + "'",
-                       "use a source that begins with one of: " + known};
 }
 
 }  // namespace chiaro::drivers

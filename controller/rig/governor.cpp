@@ -101,7 +101,7 @@ struct Governor::State {
   std::array<TimePoint, kSources> fade_start{};
   std::array<bool, kSources> fresh{};  ///< its fade id is new in the word being taken
   std::array<double, kMasters> masters{1, 1, 1, 1, 1};
-  bool blackout = false, refused = false, stepped = false;
+  bool blackout = false, refused = false, stepped = false, heard = false;
   std::uint64_t blackout_id = 0;
   TimePoint last_word, last_step;
   double safe_progress = 0;  ///< 0 = as wanted, 1 = every lamp at its safe level
@@ -219,6 +219,7 @@ void Governor::take(const Wanted& wanted, TimePoint now) {
   }
   s.refused = wanted.studio_fingerprint != s.fingerprint;
   if (s.refused) return;
+  s.heard = true;
   s.last_word = std::max(s.last_word, std::min(posted, now));
   for (std::size_t i = 0; i < kMasters; ++i) s.masters[i] = tidy_master(wanted.masters[i]);
   for (std::size_t i = 0; i < kSources; ++i) s.hear_source(i, wanted.sources[i], now);
@@ -234,7 +235,7 @@ Caution Governor::caution() const { return state_->caution; }
 
 void Governor::State::judge(TimePoint now, double elapsed) {
   const double silence = std::chrono::duration<double>(now - last_word).count();
-  const bool silent = now - last_word > kSilence;
+  const bool silent = !heard || now - last_word > kSilence;
   const bool to_safe =
       !refused && safety.fade_to_safe_after_s && silence >= *safety.fade_to_safe_after_s && silent;
   const double reach = safety.fade_to_safe_s > 0 ? elapsed / safety.fade_to_safe_s : 1;
@@ -352,6 +353,7 @@ void Governor::carry_on(const Governor& before, std::span<const std::ptrdiff_t> 
   s.masters = old.masters;
   s.blackout = old.blackout;
   s.blackout_id = old.blackout_id;
+  s.heard = old.heard;
   s.last_word = old.last_word;
   s.last_step = old.last_step;
   s.stepped = old.stepped;

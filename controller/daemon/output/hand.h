@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// The output loop's own state and the doors through which other threads reach it. Nobody waits at
+// a door: a wish is laid down, the loop takes it at its next frame.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+
+#include "controller/daemon/output/show.h"
+
+namespace chiaro::daemon {
+
+class Hand {
+ public:
+  explicit Hand(std::unique_ptr<Show> show) : show_(std::move(show)) {}
+  ~Hand() {
+    delete incoming_.load();
+    delete outgoing_.load();
+  }
+  Hand(const Hand&) = delete;
+  Hand& operator=(const Hand&) = delete;
+
+  // The loop; real-time.
+  void start(ports::TimePoint start) { show_->start(start); }
+  void frame(ports::Clock& clock);
+  ports::TimePoint next_deadline() const { return show_->next_deadline(); }
+
+  // Any thread.
+
+  /// Lays down a wish and returns its number; `taken` says when it is on the wire of every port.
+  std::uint64_t wish_blackout(bool on);
+  bool taken(std::uint64_t wish) const { return taken_.load(std::memory_order_acquire) >= wish; }
+  std::uint64_t frames() const { return frames_.load(std::memory_order_relaxed); }
+
+  // The housekeeper, one swap at a time.
+
+  /// Hands the loop another show, which it takes at its next frame.
+  void offer(std::unique_ptr<Show> show) {
+    incoming_.store(show.release(), std::memory_order_release);
+  }
+  /// The show that the loop has put down; null until it has.
+  std::unique_ptr<Show> collect() {
+    return std::unique_ptr<Show>(outgoing_.exchange(nullptr, std::memory_order_acq_rel));
+  }
+  /// While no loop runs, or for the housekeeper between swaps.
+  Show& show() { return *show_; }
+
+ private:
+  std::unique_ptr<Show> show_;
+  std::atomic<Show*> incoming_{nullptr}, outgoing_{nullptr};
+  std::atomic<std::uint64_t> wish_{0};  ///< number * 2 + on
+  std::atomic<std::uint64_t> taken_{0};
+  std::atomic<std::uint64_t> frames_{0};
+  std::uint64_t seen_ = 0;  ///< the wish that the show has been told
+  ports::TimePoint told_;
+};
+
+}  // namespace chiaro::daemon

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "controller/daemon/output/port_slot.h"
+
+#include <cmath>
+
+namespace chiaro::daemon {
+
+PortSlot::PortSlot(std::string driver, drivers::OutputSettings settings,
+                   std::unique_ptr<ports::OutputPort> port, double rate_hz)
+    : driver_(std::move(driver)), settings_(std::move(settings)), port_(std::move(port)) {
+  set_rate(rate_hz);
+  health_ = port_->report().health;
+}
+
+void PortSlot::set_rate(double rate_hz) {
+  rate_hz_ = rate_hz;
+  period_ = ports::Duration(std::llround(1e9 / rate_hz));
+}
+
+bool PortSlot::away() {
+  const Lending lending = lending_.load(std::memory_order_acquire);
+  if (lending == Lending::asked) lending_.store(Lending::lent, std::memory_order_release);
+  return lending != Lending::at_work;
+}
+
+void PortSlot::move_on(ports::TimePoint now) {
+  if (now - next_ > period_ / 2) ++late_;
+  next_ += period_;
+  if (next_ > now) return;
+  const auto skipped = (now - next_) / period_ + 1;
+  missed_ += static_cast<std::uint64_t>(skipped);
+  next_ += skipped * period_;
+}
+
+void PortSlot::send(const ports::DmxFrame& frame, ports::Clock& clock) {
+  const ports::TimePoint now = clock.now();
+  tried_ = now;
+  move_on(now);
+  if (away()) {
+    ++missed_;
+    any_ = false;
+    return;
+  }
+  port_->send(frame, now);
+  const ports::PortReport report = port_->report();
+  health_.store(report.health, std::memory_order_release);
+  if (any_) jitter_.add((now - sent_) - period_);
+  any_ = true;
+  sent_ = now;
+  const auto every = static_cast<std::uint64_t>(rate_hz_) + 1;
+  if ((jitter_.total() + settings_.universe) % every == 0) {
+    p50_ = jitter_.microseconds(0.5);
+    p99_ = jitter_.microseconds(0.99);
+    p999_ = jitter_.microseconds(0.999);
+  }
+}
+
+void PortSlot::report(rig::Sent::Port& into) const {
+  into.universe = settings_.universe;
+  into.rate_hz = rate_hz_;
+  into.late = late_;
+  into.missed = missed_;
+  into.jitter_us_p50 = p50_;
+  into.jitter_us_p99 = p99_;
+  into.jitter_us_p999 = p999_;
+  into.health = static_cast<std::uint8_t>(health());
+  if (lending_.load(std::memory_order_acquire) != Lending::at_work) return;
+  const ports::PortReport report = port_->report();
+  into.frames = report.frames_sent;
+  into.failed = report.frames_failed;
+}
+
+}  // namespace chiaro::daemon

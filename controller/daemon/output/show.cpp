@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "controller/daemon/output/show.h"
+
+#include <algorithm>
+
+#include "controller/daemon/box_words.h"
+
+namespace chiaro::daemon {
+namespace {
+
+constexpr ports::Duration kIdlePeriod = std::chrono::milliseconds(25);
+
+struct PortPlan {
+  std::string driver;
+  drivers::OutputSettings settings;
+  double rate_hz;
+};
+
+PortPlan plan_of(const studio::Output& output, const Show::Options& options,
+                 const std::string& studio) {
+  PortPlan plan;
+  plan.settings.universe = output.universe;
+  plan.settings.cid = options.cid;
+  plan.settings.source_name = "Chiaro: " + studio;
+  if (const auto* sacn = std::get_if<studio::SacnOutput>(&output.driver)) {
+    plan.driver = "sacn";
+    plan.rate_hz = sacn->rate_hz;
+    plan.settings.interface = sacn->interface;
+    plan.settings.unicast = sacn->unicast;
+    plan.settings.priority = sacn->priority;
+  } else {
+    plan.driver = "mock";
+    plan.rate_hz = std::get<studio::MockOutput>(output.driver).rate_hz;
+  }
+  return plan;
+}
+
+std::ptrdiff_t find_port(const Show* before, const PortPlan& plan) {
+  if (before == nullptr) return -1;
+  const auto& ports = before->ports();
+  for (std::size_t i = 0; i < ports.size(); ++i) {
+    if (!ports[i] || ports[i]->driver() != plan.driver) continue;
+    drivers::OutputSettings wanted = plan.settings;
+    wanted.source_name = ports[i]->settings().source_name;  // a stream keeps the name it began with
+    if (ports[i]->settings() == wanted) return static_cast<std::ptrdiff_t>(i);
+  }
+  return -1;
+}
+
+/// The port, open if it can be; in a dry run nothing that could reach a lamp is even made.
+std::unique_ptr<ports::OutputPort> open_port(const PortPlan& plan, bool dry_run,
+                                             ports::World& world, core::Problems& warnings) {
+  auto port = drivers::make_output(plan.driver, plan.settings, world.network);
+  if (port && dry_run && (*port)->physical())
+    port = drivers::make_output("mock", plan.settings, world.network);
+  if (!port) return nullptr;
+  if (const auto opened = (*port)->open(); !opened)
+    for (core::Problem problem : opened.problems()) {
+      problem.warning = true;
+      problem.what += "; trying again every few seconds";
+      warnings.push_back(problem);
+    }
+  return std::move(*port);
+}
+
+}  // namespace
+
+Show::Show(const studio::Studio& studio, const Options& options, ports::TimePoint now,
+           const rig::Held* held)
+    : studio_(studio),
+      plan_(patch::Plan::of(studio)),
+      governor_(studio, now, held),
+      frames_(plan_.blank_frames()),
+      report_(sized_sent(studio)),
+      wanted_(sized_wanted(studio)) {
+  report_.dry_run = options.dry_run;
+}
+
+Show::~Show() {
+  delete incoming_.load();
+  delete outgoing_.load();
+}
+
+core::Result<std::unique_ptr<Show>> Show::make(const studio::Studio& studio, const Options& options,
+                                               ports::World& world, const rig::Held* held,
+                                               const Show* before, core::Problems& warnings) {
+  std::unique_ptr<Show> show(new Show(studio, options, world.clock.now(), held));
+  patch::Plan::of(studio, &warnings);
+  for (const auto& fixture : studio.fixtures) {
+    const auto index =
+        before == nullptr ? std::nullopt : before->studio_.fixture_index(fixture.name);
+    show->fixtures_before_.push_back(index ? static_cast<std::ptrdiff_t>(*index) : -1);
+  }
+  for (const auto& output : studio.outputs)
+    show->add_port(output, options, world, before, warnings);
+  show->wanted_words_.resize(wanted_format(studio).words);
+  const BoxFormat format = sent_format(studio);
+  show->sent_words_.resize(format.words);
+  auto writer = BoxWriter::create(world.runtime_folder / "sent.box", format);
+  if (!writer) return writer.problems();
+  show->writer_ = std::move(*writer);
+  return show;
+}
+
+void Show::add_port(const studio::Output& output, const Options& options, ports::World& world,
+                    const Show* before, core::Problems& warnings) {
+  const PortPlan plan = plan_of(output, options, studio_.name);
+  const std::ptrdiff_t old = find_port(before, plan);
+  ports_before_.push_back(old);
+  rates_.push_back(plan.rate_hz);
+  const auto universes = plan_.universes();
+  frame_of_port_.push_back(static_cast<std::size_t>(
+      std::lower_bound(universes.begin(), universes.end(), output.universe) - universes.begin()));
+  ports_.push_back(old >= 0 ? nullptr
+                            : std::make_unique<PortSlot>(
+                                  plan.driver, plan.settings,
+                                  open_port(plan, options.dry_run, world, warnings), plan.rate_hz));
+}
+
+void Show::take_over(Show& before) {
+  governor_.carry_on(before.governor_, fixtures_before_);
+  const ports::TimePoint next = before.next_deadline();
+  for (std::size_t i = 0; i < ports_.size(); ++i) {
+    if (ports_before_[i] >= 0) {
+      std::swap(ports_[i], before.ports_[static_cast<std::size_t>(ports_before_[i])]);
+      ports_[i]->set_rate(rates_[i]);
+    } else {
+      ports_[i]->start(next);
+    }
+  }
+  report_.real_time = before.report_.real_time;
+  last_frame_ = before.last_frame_;
+}
+
+void Show::start(ports::TimePoint start) {
+  last_frame_ = start;
+  for (auto& port : ports_) port->start(start);
+}
+
+ports::TimePoint Show::next_deadline() const {
+  if (ports_.empty()) return last_frame_ + kIdlePeriod;  // nothing to send, but reports go on
+  ports::TimePoint next = ports::TimePoint::max();
+  for (const auto& port : ports_)
+    if (port) next = std::min(next, port->next());
+  return next;
+}
+
+bool Show::all_tried_since(ports::TimePoint since) const {
+  return std::all_of(ports_.begin(), ports_.end(),
+                     [&](const auto& port) { return !port || port->tried() >= since; });
+}
+
+void Show::hear(ports::TimePoint now) {
+  // The old reader can only be passed back when the last one has been fetched: nothing is freed
+  // on this thread.
+  if (outgoing_.load(std::memory_order_acquire) == nullptr)
+    if (BoxReader* fresh = incoming_.exchange(nullptr, std::memory_order_acq_rel)) {
+      outgoing_.store(reader_.release(), std::memory_order_release);
+      reader_.reset(fresh);
+    }
+  if (refused_.exchange(false, std::memory_order_acq_rel)) governor_.refuse();
+  if (reader_ && reader_->read(wanted_words_)) {
+    from_words(wanted_words_, wanted_);
+    governor_.take(wanted_, now);
+  }
+}
+
+void Show::frame(ports::Clock& clock) {
+  const ports::TimePoint now = clock.now();
+  last_frame_ = now;
+  hear(now);
+  plan_.encode(governor_.step(now), frames_);
+  for (std::size_t i = 0; i < ports_.size(); ++i)
+    if (ports_[i]->due(now)) ports_[i]->send(frames_[frame_of_port_[i]], clock);
+  post_report();
+}
+
+void Show::post_report() {
+  governor_.report(report_);
+  for (std::size_t i = 0; i < ports_.size(); ++i) ports_[i]->report(report_.ports[i]);
+  to_words(report_, sent_words_);
+  writer_->post(sent_words_);
+}
+
+void Show::give_reader(std::unique_ptr<BoxReader> reader) {
+  delete outgoing_.exchange(nullptr, std::memory_order_acq_rel);
+  delete incoming_.exchange(reader.release(), std::memory_order_acq_rel);
+}
+
+void Show::release(ports::TimePoint now) {
+  for (auto& port : ports_)
+    if (port) port->release(now);
+}
+
+}  // namespace chiaro::daemon
