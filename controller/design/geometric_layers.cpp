@@ -8,6 +8,8 @@
 #include <mutex>
 
 #include "controller/core/picture_file.h"
+#include "controller/render/lighting.h"
+#include "controller/render/visibility_cache.h"
 
 namespace chiaro::design {
 namespace {
@@ -28,6 +30,7 @@ class GeometricLayers : public Layers {
       : twin_(twin),
         view_(render::see(twin.tracer, twin.studio.main_camera(), size)),
         planes_(core::planes(view_.buffer)),
+        cache_(view_, twin.studio, twin.options.visibility_cache_bytes),
         ambient_(make_ambient()) {}
 
   core::Size size() const override { return view_.buffer.size; }
@@ -36,21 +39,23 @@ class GeometricLayers : public Layers {
 
   void luminance(std::size_t fixture, const core::FixtureState& state, Accuracy accuracy,
                  core::Plane& out) const override {
-    core::Layer layer;
-    colour(fixture, state, accuracy, layer);
-    const core::Plane diffuse = core::luminance(layer.diffuse);
-    out = core::luminance(layer.specular);
-    for (std::size_t i = 0; i < out.values.size(); ++i) out.values[i] += diffuse.values[i];
+    with_visible(fixture, state, accuracy, [&](const twin::Light& light, const auto& visible) {
+      render::luminance(view_, light, twin_.gain, &visible, out);
+    });
   }
 
-  void colour(std::size_t fixture, const core::FixtureState& state, Accuracy,
+  void colour(std::size_t fixture, const core::FixtureState& state, Accuracy accuracy,
               core::Layer& out) const override {
-    out = render::layer(view_, light(fixture, state), twin_.gain);
+    with_visible(fixture, state, accuracy, [&](const twin::Light& light, const auto& visible) {
+      render::colour(view_, light, twin_.gain, &visible, out);
+    });
   }
 
-  void visibility(std::size_t fixture, const core::FixtureState& state, Accuracy,
+  void visibility(std::size_t fixture, const core::FixtureState& state, Accuracy accuracy,
                   core::Plane& out) const override {
-    out = render::visibility(view_, light(fixture, state));
+    with_visible(fixture, state, accuracy, [&](const twin::Light&, const auto& visible) {
+      render::visibility(view_, visible, out);
+    });
   }
 
   std::string infeasible(const studio::Rig& rig, std::size_t fixture) const override {
@@ -61,6 +66,21 @@ class GeometricLayers : public Layers {
   twin::Light light(std::size_t fixture, const core::FixtureState& state) const {
     return twin::light(twin_.studio.fixtures[fixture], state, twin_.geometry->aim,
                        twin_.studio.exposure.white_balance);
+  }
+
+  template <class F>
+  void with_visible(std::size_t fixture, const core::FixtureState& state, Accuracy accuracy,
+                    const F& f) const {
+    const twin::Light lit = light(fixture, state);
+    if (accuracy == Accuracy::exact || twin_.options.reference) {
+      // Isolated: while this thread waits for its rows it must not take up another trial, which
+      // may hold what the caller is in the middle of.
+      tbb::this_task_arena::isolate(
+          [&] { f(lit, static_cast<const render::Visible&>(render::Traced(view_, lit, render::kExact))); });
+      return;
+    }
+    const auto visible = cache_.at(fixture, state);
+    f(lit, *visible);
   }
 
   /// Uncontrolled practicals burn as the file says, whatever is designed.
@@ -77,6 +97,7 @@ class GeometricLayers : public Layers {
   const Twin& twin_;
   render::View view_;
   core::GeometryPlanes planes_;
+  render::VisibilityCache cache_;
   core::Picture ambient_;
 };
 

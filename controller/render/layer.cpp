@@ -1,81 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
-#include <algorithm>
+#include <array>
 #include <stdexcept>
+#include <vector>
 
-#include "controller/render/shadow.h"
+#include "controller/render/kernels.h"
+#include "controller/render/lighting.h"
 #include "controller/render/view.h"
-#include "controller/render/work.h"
-#include "controller/twin/lights/light_model.h"
 
 namespace chiaro::render {
 namespace {
 
-using core::Vec3;
+Strata strata(Shadows shadows) { return shadows == Shadows::soft ? kExact : kHard; }
 
-constexpr std::size_t kTile = 512;
-constexpr int kExactStrata = 16;
-
-template <class F>
-void over_tiles(std::size_t samples, const F& f) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, samples, kTile),
-                    [&](const auto& range) { f(range.begin(), range.end()); });
-}
-
-std::vector<float> fractions(const View& view, const twin::Light& light, Shadows shadows) {
-  std::vector<float> out(view.buffer.samples(), 1.0f);
-  if (shadows == Shadows::none) return out;
-  const int strata = shadows == Shadows::hard ? 1 : kExactStrata;
-  over_tiles(out.size(), [&](std::size_t from, std::size_t to) {
-    trace_fraction(view, light, strata, from, std::span(out).subspan(from, to - from));
-  });
-  return out;
+/// Adds level x each plane to `to`, in one pass over memory.
+void mix_into(core::Plane& to, std::span<const core::Plane* const> planes,
+              std::span<const double> levels) {
+  std::vector<const float*> from;
+  std::vector<float> weights;
+  for (std::size_t k = 0; k < planes.size(); ++k) {
+    if (!(planes[k]->size == to.size)) throw std::logic_error("layers of unequal size");
+    from.push_back(planes[k]->values.data());
+    weights.push_back(static_cast<float>(levels[k]));
+  }
+  kernels::mix(from, weights, to.values.data(), to.values.data(), to.values.size());
 }
 
 }  // namespace
 
-Counters& work() {
-  static Counters counters;
-  return counters;
-}
-Work work_done() {
-  return {work().primary_rays.value(), work().shadow_rays.value(), work().layers.value()};
-}
-
 core::Layer layer(const View& view, const twin::Light& light, double gain, Shadows shadows) {
-  const core::GBuffer& b = view.buffer;
-  const twin::LightModel& model = twin::light_model(light.kind);
-  const std::vector<float> visible = fractions(view, light, shadows);
-  core::Layer out{core::Picture(b.size), core::Picture(b.size)};
-  over_tiles(b.samples(), [&](std::size_t from, std::size_t to) {
-    for (std::size_t i = from; i < to; ++i) {
-      const Vec3 at{b.position_x[i], b.position_y[i], b.position_z[i]};
-      const Vec3 normal{b.normal_x[i], b.normal_y[i], b.normal_z[i]};
-      const double k = gain * visible[i];
-      const double e = k * model.irradiance(light, at, normal);
-      const std::size_t p = b.pixel[i];
-      out.diffuse.red.values[p] = static_cast<float>(e * light.colour.r * b.diffuse_r[i]);
-      out.diffuse.green.values[p] = static_cast<float>(e * light.colour.g * b.diffuse_g[i]);
-      out.diffuse.blue.values[p] = static_cast<float>(e * light.colour.b * b.diffuse_b[i]);
-      if (b.specular[i] <= 0) continue;
-      const double s = k * b.specular[i] *
-                       model.specular(light, at, normal,
-                                      {b.viewer_x[i], b.viewer_y[i], b.viewer_z[i]}, b.shininess[i]);
-      out.specular.red.values[p] = static_cast<float>(s * light.colour.r);
-      out.specular.green.values[p] = static_cast<float>(s * light.colour.g);
-      out.specular.blue.values[p] = static_cast<float>(s * light.colour.b);
-    }
-  });
-  work().layers += 1;
+  core::Layer out;
+  const Traced traced(view, light, strata(shadows));
+  colour(view, light, gain, shadows == Shadows::none ? nullptr : &traced, out);
   return out;
 }
 
 core::Plane visibility(const View& view, const twin::Light& light, Shadows shadows) {
-  const std::vector<float> visible = fractions(view, light, shadows);
   core::Plane out(view.buffer.size, 1.0f);
-  for (std::size_t i = 0; i < visible.size(); ++i) out.values[view.buffer.pixel[i]] = visible[i];
+  if (shadows != Shadows::none) visibility(view, Traced(view, light, strata(shadows)), out);
   return out;
 }
 
@@ -91,38 +52,47 @@ core::Picture ambient_layer(const View& view, const core::Rgb& irradiance, doubl
   return out;
 }
 
-namespace {
-void add(core::Plane& to, double level, const core::Plane& from) {
-  const auto k = static_cast<float>(level);
-  for (std::size_t i = 0; i < to.values.size(); ++i) to.values[i] += k * from.values[i];
+void relit(std::span<const core::Plane* const> layers, std::span<const double> levels,
+           const core::Plane& ambient, core::Plane& out) {
+  std::array<const float*, 64> from;
+  std::array<float, 64> weights;
+  if (layers.size() > from.size() || !(out.size == ambient.size))
+    throw std::logic_error("relit: more than 64 layers, or planes of unequal size");
+  for (std::size_t k = 0; k < layers.size(); ++k) {
+    from[k] = layers[k]->values.data();
+    weights[k] = static_cast<float>(levels[k]);
+  }
+  kernels::mix({from.data(), layers.size()}, {weights.data(), layers.size()},
+               ambient.values.data(), out.values.data(), out.values.size());
 }
-void add(core::Picture& to, double level, const core::Picture& from) {
-  add(to.red, level, from.red);
-  add(to.green, level, from.green);
-  add(to.blue, level, from.blue);
-}
-}  // namespace
 
 core::Picture relit(std::span<const core::Layer> layers, std::span<const double> levels,
                     const core::Picture& ambient) {
   core::Picture out = ambient;
-  for (std::size_t k = 0; k < layers.size(); ++k) {
-    if (!(layers[k].diffuse.size() == out.size())) throw std::logic_error("layers of unequal size");
-    add(out, levels[k], layers[k].diffuse);
-    add(out, levels[k], layers[k].specular);
+  std::vector<const core::Plane*> planes(2 * layers.size());
+  std::vector<double> twice(planes.size());
+  for (core::Plane core::Picture::*channel :
+       {&core::Picture::red, &core::Picture::green, &core::Picture::blue}) {
+    for (std::size_t k = 0; k < layers.size(); ++k) {
+      planes[2 * k] = &(layers[k].diffuse.*channel);
+      planes[2 * k + 1] = &(layers[k].specular.*channel);
+      twice[2 * k] = twice[2 * k + 1] = levels[k];
+    }
+    mix_into(out.*channel, planes, twice);
   }
   return out;
 }
 
 core::Picture picture(const View& view, const twin::Scene& scene, Shadows shadows) {
-  core::Picture out = ambient_layer(view, scene.ambient_irradiance, scene.exposure_gain);
+  std::vector<core::Layer> layers;
+  std::vector<double> levels;
   for (std::size_t k = 0; k < scene.lights.size(); ++k) {
     if (scene.levels[k] <= 0) continue;
-    const core::Layer lit = layer(view, scene.lights[k], scene.exposure_gain, shadows);
-    add(out, scene.levels[k], lit.diffuse);
-    add(out, scene.levels[k], lit.specular);
+    layers.push_back(layer(view, scene.lights[k], scene.exposure_gain, shadows));
+    levels.push_back(scene.levels[k]);
   }
-  return out;
+  return relit(layers, levels,
+               ambient_layer(view, scene.ambient_irradiance, scene.exposure_gain));
 }
 
 }  // namespace chiaro::render

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "controller/render/samples.h"
 #include "controller/render/surface.h"
 #include "controller/render/view.h"
 #include "controller/render/work.h"
@@ -95,6 +96,7 @@ View see(std::shared_ptr<const Tracer> tracer, const studio::Camera& camera, cor
     }
   });
   view.tracer = std::move(tracer);
+  view.samples = std::make_shared<const Samples>(view.buffer);
   return view;
 }
 

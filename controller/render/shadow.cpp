@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "controller/render/shadow.h"
 
+#include <embree3/rtcore.h>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "controller/render/work.h"
 #include "controller/twin/lights/light_model.h"
@@ -10,94 +13,163 @@
 namespace chiaro::render {
 namespace {
 
-using core::Vec3;
-
 /// Shadow rays start this far off the surface, metres: beyond float's grain at studio distances,
 /// below what a camera resolves.
-constexpr double kLiftOff = 2e-4;
-/// Least sine of elevation of a shadow ray over the surface.
-constexpr double kGrazing = 0.02;
+constexpr float kLiftOff = 2e-4f;
+/// Least sine of a shadow ray's elevation over the surface.
+constexpr float kGrazing = 0.02f;
+constexpr std::size_t kPacket = 16;
 
-struct Sample {
-  Vec3 position, normal, face;
+using Lanes = std::array<float, kPacket>;
+
+struct Triple {
+  float x = 0, y = 0, z = 0;
 };
-Sample sample(const core::GBuffer& b, std::size_t i) {
-  return {{b.position_x[i], b.position_y[i], b.position_z[i]},
-          {b.normal_x[i], b.normal_y[i], b.normal_z[i]},
-          {b.face_x[i], b.face_y[i], b.face_z[i]}};
+Triple triple(core::Vec3 v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-class Fraction {
+/// Sixteen samples, copied so that the loops below run over plain arrays.
+struct Packet {
+  alignas(64) Lanes px, py, pz, nx, ny, nz, fx, fy, fz;
+  std::size_t count = 0;
+
+  void load(const core::GBuffer& b, std::size_t first, std::size_t n) {
+    count = n;
+    const auto copy = [&](Lanes& to, const std::vector<float>& from) {
+      for (std::size_t k = 0; k < kPacket; ++k) to[k] = from[first + std::min(k, n - 1)];
+    };
+    copy(px, b.position_x), copy(py, b.position_y), copy(pz, b.position_z);
+    copy(nx, b.normal_x), copy(ny, b.normal_y), copy(nz, b.normal_z);
+    copy(fx, b.face_x), copy(fy, b.face_y), copy(fz, b.face_z);
+  }
+};
+
+class Shadow {
  public:
-  Fraction(const View& view, const twin::Light& light, int across)
-      : view_(view),
+  Shadow(const View& view, const twin::Light& light)
+      : scene_(static_cast<RTCScene>(view.tracer->embree_scene())),
         light_(light),
         model_(twin::light_model(light.kind)),
-        across_(model_.has_area ? across : 1) {}
-
-  float of(std::size_t i) {
-    const Sample s = sample(view_.buffer, i);
-    if (across_ == 1) return seen(s, model_.target(light_, s.position, 0.5, 0.5)) ? 1.0f : 0.0f;
-    const int few = std::min(across_, 4);
-    const Sum first = sum(s, few);
-    if (first.all == 0)  // the face is below the horizon or turned away: its centre stands for it
-      return seen(s, light_.position) ? 1.0f : 0.0f;
-    if (few == across_ || first.unanimous) return static_cast<float>(first.visible / first.all);
-    const Sum full = sum(s, across_);
-    return static_cast<float>(full.visible / full.all);
+        axis_(triple(light.direction)) {
+    rtcInitIntersectContext(&context_);
+    context_.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   }
+
+  void fractions(const Packet& p, Strata strata, float* out) {
+    std::array<int, kPacket> wanted{};
+    std::fill_n(wanted.begin(), p.count, -1);
+    if (!model_.has_area || strata.many == 1) {
+      single(p, wanted, out);
+      return;
+    }
+    Sums sums;
+    sum(p, strata.few, wanted, sums);
+    std::array<int, kPacket> mixed{}, below{};
+    bool any_mixed = false, any_below = false;
+    for (std::size_t k = 0; k < p.count; ++k) {
+      below[k] = sums.all[k] > 0 ? 0 : -1;
+      const bool agree = sums.open[k] == 0 || sums.open[k] == sums.traced[k];
+      mixed[k] = !below[k] && !agree && strata.many > strata.few ? -1 : 0;
+      any_mixed = any_mixed || mixed[k];
+      any_below = any_below || below[k];
+      out[k] = below[k] ? 0 : sums.visible[k] / sums.all[k];
+    }
+    // The face is turned away or wholly below the horizon: its centre stands for it.
+    if (any_below) single(p, below, out);
+    if (!any_mixed) return;
+    Sums full;
+    sum(p, strata.many, mixed, full);
+    for (std::size_t k = 0; k < p.count; ++k)
+      if (mixed[k]) out[k] = full.visible[k] / full.all[k];
+  }
+
   std::uint64_t rays = 0;
 
  private:
-  struct Sum {
-    double visible = 0, all = 0;
-    bool unanimous = true;
+  struct Sums {
+    Lanes visible{}, all{};
+    std::array<int, kPacket> open{}, traced{};
   };
 
-  bool seen(const Sample& s, Vec3 target) {
-    const Vec3 from = s.position + kLiftOff * s.face;
-    Vec3 along = target - from;
-    const double size = length(along);
-    const double above = dot(along, s.face);
-    if (above < kGrazing * size) along = along + (kGrazing * size - above) * s.face;
-    ++rays;
-    return !view_.tracer->blocked(from, from + along);
+  void single(const Packet& p, const std::array<int, kPacket>& wanted, float* out) {
+    alignas(64) std::array<int, kPacket> valid = wanted;
+    aim(p, triple(model_.target(light_, {}, 0.5, 0.5)));
+    trace(valid);
+    for (std::size_t k = 0; k < p.count; ++k)
+      if (wanted[k]) out[k] = ray_.tfar[k] < 0 ? 0.0f : 1.0f;
   }
 
-  Sum sum(const Sample& s, int strata) {
-    Sum out;
-    int traced = 0, visible = 0;
-    for (int k = 0; k < strata * strata; ++k) {
-      const Vec3 target = model_.target(light_, s.position, (k % strata + 0.5) / strata,
-                                        (k / strata + 0.5) / strata);
-      const Vec3 to = target - s.position;
-      const double dd = std::max(dot(to, to), 1e-6);
-      const double weight =
-          std::max(0.0, dot(to, s.normal)) * std::max(0.0, -dot(to, light_.direction)) / (dd * dd);
-      if (weight <= 0) continue;
-      const bool open = seen(s, target);
-      out.all += weight;
-      if (open) out.visible += weight;
-      ++traced;
-      visible += open;
+  void sum(const Packet& p, int across, const std::array<int, kPacket>& wanted, Sums& sums) {
+    for (int s = 0; s < across * across; ++s) {
+      const Triple target = triple(model_.target(light_, {}, (s % across + 0.5) / across,
+                                                 (s / across + 0.5) / across));
+      Lanes weight;
+      alignas(64) std::array<int, kPacket> valid{};
+      for (std::size_t k = 0; k < kPacket; ++k) {
+        const float x = target.x - p.px[k], y = target.y - p.py[k], z = target.z - p.pz[k];
+        const float dd = std::max(x * x + y * y + z * z, 1e-6f);
+        const float in = std::max(0.0f, x * p.nx[k] + y * p.ny[k] + z * p.nz[k]);
+        const float out = std::max(0.0f, -(x * axis_.x + y * axis_.y + z * axis_.z));
+        weight[k] = in * out / (dd * dd);
+        valid[k] = weight[k] > 0 ? wanted[k] : 0;
+      }
+      aim(p, target);
+      trace(valid);
+      for (std::size_t k = 0; k < kPacket; ++k) {
+        if (!valid[k]) continue;
+        const bool open = !(ray_.tfar[k] < 0);
+        sums.all[k] += weight[k];
+        sums.visible[k] += open ? weight[k] : 0;
+        sums.traced[k] += 1;
+        sums.open[k] += open;
+      }
     }
-    out.unanimous = visible == 0 || visible == traced;
-    return out;
   }
 
-  const View& view_;
+  void aim(const Packet& p, Triple target) {
+    for (std::size_t k = 0; k < kPacket; ++k) {
+      const float ox = p.px[k] + kLiftOff * p.fx[k], oy = p.py[k] + kLiftOff * p.fy[k],
+                  oz = p.pz[k] + kLiftOff * p.fz[k];
+      float x = model_.parallel ? target.x : target.x - ox;
+      float y = model_.parallel ? target.y : target.y - oy;
+      float z = model_.parallel ? target.z : target.z - oz;
+      const float least = kGrazing * std::sqrt(x * x + y * y + z * z);
+      const float lift = std::max(0.0f, least - (x * p.fx[k] + y * p.fy[k] + z * p.fz[k]));
+      x += lift * p.fx[k], y += lift * p.fy[k], z += lift * p.fz[k];
+      ray_.org_x[k] = ox, ray_.org_y[k] = oy, ray_.org_z[k] = oz;
+      ray_.dir_x[k] = x, ray_.dir_y[k] = y, ray_.dir_z[k] = z;
+      ray_.tnear[k] = 0, ray_.tfar[k] = 1, ray_.time[k] = 0;
+      ray_.mask[k] = 0xffffffffu, ray_.id[k] = 0, ray_.flags[k] = 0;
+    }
+  }
+
+  void trace(const std::array<int, kPacket>& valid) {
+    const auto wanted = std::count(valid.begin(), valid.end(), -1);
+    if (wanted == 0) return;
+    rtcOccluded16(valid.data(), scene_, &context_, &ray_);
+    rays += static_cast<std::uint64_t>(wanted);
+  }
+
+  RTCScene scene_;
   const twin::Light& light_;
   const twin::LightModel& model_;
-  int across_;
+  Triple axis_;
+  RTCIntersectContext context_;
+  alignas(64) RTCRay16 ray_;
 };
 
 }  // namespace
 
-void trace_fraction(const View& view, const twin::Light& light, int across, std::size_t first,
+void trace_fraction(const View& view, const twin::Light& light, Strata strata, std::size_t first,
                     std::span<float> out) {
-  Fraction fraction(view, light, across);
-  for (std::size_t k = 0; k < out.size(); ++k) out[k] = fraction.of(first + k);
-  work().shadow_rays += fraction.rays;
+  Shadow shadow(view, light);
+  Packet packet;
+  for (std::size_t k = 0; k < out.size(); k += kPacket) {
+    packet.load(view.buffer, first + k, std::min(kPacket, out.size() - k));
+    shadow.fractions(packet, strata, &out[k]);
+  }
+  work().shadow_rays += shadow.rays;
 }
 
 }  // namespace chiaro::render

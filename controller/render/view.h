@@ -13,6 +13,8 @@
 
 namespace chiaro::render {
 
+class Samples;
+
 /// Embree's scene over a Geometry. Thread-safe once built. Owns nothing of the geometry but a
 /// shared reference.
 class Tracer {
@@ -42,6 +44,7 @@ class Tracer {
 struct View {
   core::GBuffer buffer;
   std::shared_ptr<const Tracer> tracer;
+  std::shared_ptr<const Samples> samples;  ///< the buffer again, laid out for the kernels
   core::Vec3 eye;
 };
 View see(std::shared_ptr<const Tracer> tracer, const studio::Camera& camera, core::Size size);
@@ -53,19 +56,23 @@ enum class Shadows { none, hard, soft };  ///< hard: one ray to an area light's 
 core::Layer layer(const View& view, const twin::Light& light, double exposure_gain,
                   Shadows shadows = Shadows::soft);
 /// Visible fraction 0..1 of the light per pixel (1 where nothing is seen), by what stands between:
-/// a surface that merely faces away is not in cast shadow (its shading is dark by itself).
+/// a surface that merely faces away is asked about a light just above its horizon (shadow.h).
 core::Plane visibility(const View& view, const twin::Light& light, Shadows shadows = Shadows::soft);
 core::Picture ambient_layer(const View& view, const core::Rgb& irradiance, double exposure_gain);
 
 /// sum of level * (diffuse + specular) over layers, plus ambient. Precondition: equal sizes.
 core::Picture relit(std::span<const core::Layer> layers, std::span<const double> levels,
                     const core::Picture& ambient);
+/// The same for one plane each, such as luminance. At most 64 layers; `out` has the ambient's size.
+void relit(std::span<const core::Plane* const> layers, std::span<const double> levels,
+           const core::Plane& ambient, core::Plane& out);
 /// The whole scene, once, with exact shadows.
 core::Picture picture(const View& view, const twin::Scene& scene, Shadows shadows = Shadows::soft);
 
-/// Work done since construction or reset, for tests and the bench: counted, never timed.
+/// Work done since the program began, for tests and the bench: counted, never timed.
 struct Work {
   std::uint64_t primary_rays = 0, shadow_rays = 0, layers = 0;
+  std::uint64_t nodes = 0;  ///< places whose visibility was cached
 };
 Work work_done();  ///< process-wide, relaxed atomics
 

@@ -22,6 +22,6 @@ core::Vec3 target(const Light& light, core::Vec3 at, double, double) {
 }  // namespace
 
 LightModel directional_light();
-LightModel directional_light() { return {{}, {}, {}, irradiance, specular, target, false}; }
+LightModel directional_light() { return {{}, {}, {}, irradiance, specular, target, false, true}; }
 
 }  // namespace chiaro::twin

@@ -51,7 +51,7 @@ double irradiance(const Light& light, Vec3 at, Vec3 normal) {
 }
 
 double specular(const Light& light, Vec3 at, Vec3 normal, Vec3 viewer, double shininess) {
-  return face_specular(light, disk_points(), light.radius, light.radius, at, normal, viewer,
+  return face_specular(light, disk_points(shininess), light.radius, light.radius, at, normal, viewer,
                        shininess);
 }
 
@@ -68,6 +68,6 @@ Vec3 target(const Light& light, Vec3, double u, double v) {
 }  // namespace
 
 LightModel disk_light();
-LightModel disk_light() { return {{}, {}, {}, irradiance, specular, target, true}; }
+LightModel disk_light() { return {{}, {}, {}, irradiance, specular, target, true, false}; }
 
 }  // namespace chiaro::twin

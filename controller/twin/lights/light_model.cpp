@@ -55,37 +55,43 @@ double highlight(core::Vec3 normal, core::Vec3 to_light, core::Vec3 viewer, doub
   return cosine > 0 ? std::pow(cosine, shininess) : 0;
 }
 
-std::span<const FacePoint, 9> face_points() {
+std::span<const FacePoint> face_points(double shininess) {
+  constexpr double kNear = 0.5773502691896258;
+  static constexpr std::array<FacePoint, 4> kFew{
+      {{-kNear, -kNear, 0.25}, {kNear, -kNear, 0.25}, {-kNear, kNear, 0.25}, {kNear, kNear, 0.25}}};
   constexpr double kFar = 0.7745966692414834, kEdge = 5.0 / 18, kMiddle = 8.0 / 18;
-  static constexpr std::array<FacePoint, 9> kPoints{{{-kFar, -kFar, kEdge * kEdge},
-                                                     {0, -kFar, kMiddle * kEdge},
-                                                     {kFar, -kFar, kEdge * kEdge},
-                                                     {-kFar, 0, kEdge * kMiddle},
-                                                     {0, 0, kMiddle * kMiddle},
-                                                     {kFar, 0, kEdge * kMiddle},
-                                                     {-kFar, kFar, kEdge * kEdge},
-                                                     {0, kFar, kMiddle * kEdge},
-                                                     {kFar, kFar, kEdge * kEdge}}};
-  return kPoints;
+  static constexpr std::array<FacePoint, 9> kMany{{{-kFar, -kFar, kEdge * kEdge},
+                                                   {0, -kFar, kMiddle * kEdge},
+                                                   {kFar, -kFar, kEdge * kEdge},
+                                                   {-kFar, 0, kEdge * kMiddle},
+                                                   {0, 0, kMiddle * kMiddle},
+                                                   {kFar, 0, kEdge * kMiddle},
+                                                   {-kFar, kFar, kEdge * kEdge},
+                                                   {0, kFar, kMiddle * kEdge},
+                                                   {kFar, kFar, kEdge * kEdge}}};
+  if (shininess <= kFewPointsUpTo) return kFew;
+  return kMany;
 }
 
-std::span<const FacePoint, 9> disk_points() {
-  // Centre weight 1/4 and eight points at sqrt(2/3): exact for polynomials of degree 5
-  // (Abramowitz and Stegun 25.4.61).
-  static const std::array<FacePoint, 9> kPoints = [] {
-    std::array<FacePoint, 9> points{};
-    points[0] = {0, 0, 0.25};
-    for (std::size_t k = 0; k < 8; ++k) {
-      const double turn = 2 * core::kPi * static_cast<double>(k) / 8;
-      points[k + 1] = {std::sqrt(2.0 / 3) * std::cos(turn), std::sqrt(2.0 / 3) * std::sin(turn),
-                       0.75 / 8};
-    }
-    return points;
-  }();
-  return kPoints;
+std::span<const FacePoint> disk_points(double shininess) {
+  static constexpr double kHalf = 0.5, kRing = 0.8164965809277260, kSide = 0.5773502691896258;
+  static constexpr std::array<FacePoint, 4> kFew{
+      {{-kHalf, -kHalf, 0.25}, {kHalf, -kHalf, 0.25}, {-kHalf, kHalf, 0.25}, {kHalf, kHalf, 0.25}}};
+  static constexpr double kW = 0.75 / 8;
+  static constexpr std::array<FacePoint, 9> kMany{{{0, 0, 0.25},
+                                                   {kRing, 0, kW},
+                                                   {kSide, kSide, kW},
+                                                   {0, kRing, kW},
+                                                   {-kSide, kSide, kW},
+                                                   {-kRing, 0, kW},
+                                                   {-kSide, -kSide, kW},
+                                                   {0, -kRing, kW},
+                                                   {kSide, -kSide, kW}}};
+  if (shininess <= kFewPointsUpTo) return kFew;
+  return kMany;
 }
 
-double face_specular(const Light& light, std::span<const FacePoint, 9> points, double half_right,
+double face_specular(const Light& light, std::span<const FacePoint> points, double half_right,
                      double half_up, core::Vec3 at, core::Vec3 normal, core::Vec3 viewer,
                      double shininess) {
   double sum = 0;

@@ -26,6 +26,7 @@ struct LightModel {
   /// sources have one target for all.
   core::Vec3 (*target)(const Light& light, core::Vec3 at, double u, double v);
   bool has_area = false;  ///< many targets, soft shadows
+  bool parallel = false;  ///< the target moves with `at`; otherwise it does not depend on it
 };
 
 std::span<const LightModel> light_models();
@@ -36,15 +37,17 @@ double faded(studio::Optic::Attenuation attenuation, double distance);
 /// (N.H)^shininess for a unit direction to the light, 0 when it is behind the surface.
 double highlight(core::Vec3 normal, core::Vec3 to_light, core::Vec3 viewer, double shininess);
 
-/// A flat face seen as 3 x 3 Gauss-Legendre points for its highlight: exact to a few per cent up to
-/// an exponent of a few hundred, smooth, and cheap. Offsets are fractions of the half extent.
+/// The highlight of a flat face is a weighted sum over a few of its points (Gauss-Legendre on
+/// rectangles, Abramowitz and Stegun 25.4.61 on disks): smooth, cheap, and exact to a per cent or
+/// so, because the lobe is wider than the gaps. Sharper surfaces take more points. Offsets are
+/// fractions of the half extent, weights sum to 1.
 struct FacePoint {
   double x, y, weight;
 };
-std::span<const FacePoint, 9> face_points();
-/// Points of a disk of radius 1 for the same purpose: a centre and rings, weights sum to 1.
-std::span<const FacePoint, 9> disk_points();
-double face_specular(const Light& light, std::span<const FacePoint, 9> points, double half_right,
+inline constexpr double kFewPointsUpTo = 40;  ///< shininess
+std::span<const FacePoint> face_points(double shininess);
+std::span<const FacePoint> disk_points(double shininess);
+double face_specular(const Light& light, std::span<const FacePoint> points, double half_right,
                      double half_up, core::Vec3 at, core::Vec3 normal, core::Vec3 viewer,
                      double shininess);
 

@@ -23,6 +23,6 @@ core::Vec3 target(const Light& light, core::Vec3, double, double) { return light
 }  // namespace
 
 LightModel point_light();
-LightModel point_light() { return {{}, {}, {}, irradiance, specular, target, false}; }
+LightModel point_light() { return {{}, {}, {}, irradiance, specular, target, false, false}; }
 
 }  // namespace chiaro::twin

@@ -48,7 +48,7 @@ double irradiance(const Light& light, Vec3 at, Vec3 normal) {
 }
 
 double specular(const Light& light, Vec3 at, Vec3 normal, Vec3 viewer, double shininess) {
-  return face_specular(light, face_points(), 0.5 * light.width, 0.5 * light.height, at, normal,
+  return face_specular(light, face_points(shininess), 0.5 * light.width, 0.5 * light.height, at, normal,
                        viewer, shininess);
 }
 
@@ -60,6 +60,6 @@ Vec3 target(const Light& light, Vec3, double u, double v) {
 }  // namespace
 
 LightModel rectangle_light();
-LightModel rectangle_light() { return {{}, {}, {}, irradiance, specular, target, true}; }
+LightModel rectangle_light() { return {{}, {}, {}, irradiance, specular, target, true, false}; }
 
 }  // namespace chiaro::twin

@@ -36,6 +36,6 @@ core::Vec3 target(const Light& light, core::Vec3, double, double) { return light
 }  // namespace
 
 LightModel spot_light();
-LightModel spot_light() { return {{}, {}, {}, irradiance, specular, target, false}; }
+LightModel spot_light() { return {{}, {}, {}, irradiance, specular, target, false, false}; }
 
 }  // namespace chiaro::twin

@@ -1,0 +1,499 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "controller/render/kernels.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "controller/twin/lights/light_model.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "controller/render/kernels.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target: both are read once per instruction set.
+#include <hwy/highway.h>
+
+#include "controller/render/vector_math-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace chiaro::render::kernels::HWY_NAMESPACE {
+
+HWY_INLINE std::size_t lanes() { return hn::Lanes(D()); }
+HWY_INLINE Vec broadcast(core::Vec3 v) {
+  return {set(static_cast<float>(v.x)), set(static_cast<float>(v.y)), set(static_cast<float>(v.z))};
+}
+
+/// What a light kernel reads of sixteen samples.
+struct Group {
+  const Samples& samples;
+  std::size_t at;
+  HWY_INLINE V load(Samples::Channel c) const { return hn::Load(D(), samples.channel(c) + at); }
+  HWY_INLINE Vec position() const {
+    return {load(Samples::position_x), load(Samples::position_y), load(Samples::position_z)};
+  }
+  HWY_INLINE Vec normal() const {
+    return {load(Samples::normal_x), load(Samples::normal_y), load(Samples::normal_z)};
+  }
+  HWY_INLINE Vec viewer() const {
+    return {load(Samples::viewer_x), load(Samples::viewer_y), load(Samples::viewer_z)};
+  }
+};
+
+/// Factor of the light's law at distance 1 / inverse.
+HWY_INLINE V faded(studio::Optic::Attenuation law, V inverse) {
+  if (law == studio::Optic::Attenuation::inverse_square) return hn::Mul(inverse, inverse);
+  return law == studio::Optic::Attenuation::linear ? inverse : set(1);
+}
+
+/// (N.H)^s where N.L > 0. `nl`, `nv`, `lv`: cosines of unit directions.
+HWY_INLINE V highlight(V nl, V nv, V lv, V half_shininess) {
+  const V nh = hn::Max(hn::Add(nl, nv), zero());
+  const V hh = hn::Max(hn::MulAdd(set(2), lv, set(2)), set(1e-12f));
+  const V square = hn::Min(hn::Div(hn::Mul(nh, nh), hh), set(1));
+  return hn::IfThenElseZero(hn::Gt(nl, zero()), power(square, half_shininess));
+}
+
+/// Point, spot and parallel light: one direction per sample. `E_perp` and the direction come from
+/// `arrive`, the rest is common.
+template <class Arrive>
+HWY_INLINE void shade_single(const Samples& samples, std::size_t tile, const Arrive& arrive,
+                             float* irradiance, float* glossy) {
+  for (std::size_t i = 0; i < kTile; i += lanes()) {
+    const Group group{samples, tile * kTile + i};
+    const Vec n = group.normal();
+    Vec l;
+    const V lux = arrive(group.position(), l);
+    const V nl = dot(n, l);
+    hn::Store(hn::Mul(lux, hn::Max(nl, zero())), D(), irradiance + i);
+    if (glossy == nullptr) continue;
+    const V weight = group.load(Samples::specular);
+    if (hn::AllFalse(D(), hn::Gt(weight, zero()))) {
+      hn::Store(zero(), D(), glossy + i);
+      continue;
+    }
+    const Vec v = group.viewer();
+    const V half_shininess = hn::Mul(set(0.5f), group.load(Samples::shininess));
+    const V lobe = highlight(nl, dot(n, v), dot(l, v), half_shininess);
+    hn::Store(hn::Mul(hn::Mul(lux, weight), lobe), D(), glossy + i);
+  }
+}
+
+/// Unit direction to a small source and its inverse distance.
+HWY_INLINE V towards(Vec source, Vec at, Vec& l) {
+  constexpr float kLeast = static_cast<float>(twin::kNearestLight * twin::kNearestLight);
+  const Vec to = minus(source, at);
+  const V square = dot(to, to);
+  const V inverse = inverse_root(hn::Max(square, set(1e-12f)));
+  l = {hn::Mul(to.x, inverse), hn::Mul(to.y, inverse), hn::Mul(to.z, inverse)};
+  return hn::Min(inverse, inverse_root(set(kLeast)));
+}
+
+HWY_INLINE void shade_point(const Samples& s, const twin::Light& light, std::size_t tile,
+                            float* irradiance, float* glossy) {
+  const Vec source = broadcast(light.position);
+  const V candela = set(static_cast<float>(light.candela));
+  const auto law = light.attenuation;
+  shade_single(
+      s, tile,
+      [&](Vec at, Vec& l) HWY_ATTR {
+        const V inverse = towards(source, at, l);
+        return hn::Mul(candela, faded(law, inverse));
+      },
+      irradiance, glossy);
+}
+
+HWY_INLINE void shade_spot(const Samples& s, const twin::Light& light, std::size_t tile,
+                           float* irradiance, float* glossy) {
+  const Vec source = broadcast(light.position), axis = broadcast(light.direction);
+  const V candela = set(static_cast<float>(light.candela));
+  const V outer = set(static_cast<float>(light.cos_field));
+  // A hard edge is a very steep soft one.
+  const V slope =
+      set(static_cast<float>(1 / std::max(light.cos_beam - light.cos_field, 1e-6)));
+  const auto law = light.attenuation;
+  shade_single(
+      s, tile,
+      [&](Vec at, Vec& l) HWY_ATTR {
+        const V inverse = towards(source, at, l);
+        const V cosine = hn::Neg(dot(axis, l));
+        const V t = hn::Min(hn::Max(hn::Mul(hn::Sub(cosine, outer), slope), zero()), set(1));
+        const V soft = hn::Mul(hn::Mul(t, t), hn::NegMulAdd(set(2), t, set(3)));
+        return hn::Mul(hn::Mul(candela, soft), faded(law, inverse));
+      },
+      irradiance, glossy);
+}
+
+HWY_INLINE void shade_directional(const Samples& s, const twin::Light& light, std::size_t tile,
+                                  float* irradiance, float* glossy) {
+  const Vec l0 = broadcast(-light.direction);
+  const V lux = set(static_cast<float>(light.candela));
+  shade_single(
+      s, tile,
+      [&](Vec, Vec& l) HWY_ATTR {
+        l = l0;
+        return lux;
+      },
+      irradiance, glossy);
+}
+
+/// Highlight of a flat face: the same few points as twin::face_specular.
+HWY_INLINE V face_lobe(const Group& group, const twin::Light& light,
+                       std::span<const twin::FacePoint> points, double half_right, double half_up) {
+  const Vec at = group.position(), n = group.normal(), v = group.viewer();
+  const V nv = dot(n, v), half_shininess = hn::Mul(set(0.5f), group.load(Samples::shininess));
+  const Vec axis = broadcast(light.direction);
+  V sum = zero();
+  for (const twin::FacePoint& point : points) {
+    const Vec source = broadcast(light.position + point.x * half_right * light.right +
+                                 point.y * half_up * light.up);
+    Vec l;
+    const V inverse = towards(source, at, l);
+    const V leaving = hn::Max(hn::Neg(dot(axis, l)), zero());
+    const V lux = hn::Mul(hn::Mul(set(static_cast<float>(point.weight)), leaving),
+                          faded(light.attenuation, inverse));
+    sum = hn::MulAdd(lux, highlight(dot(n, l), nv, dot(l, v), half_shininess), sum);
+  }
+  return hn::Mul(sum, set(static_cast<float>(light.candela)));
+}
+
+template <class Points>
+HWY_INLINE void gloss_of_face(const Group& group, const twin::Light& light, const Points& points,
+                              double half_right, double half_up, float* out) {
+  const V weight = group.load(Samples::specular);
+  V lobe = zero();
+  if (!hn::AllFalse(D(), hn::Gt(weight, zero()))) {
+    const M few = hn::Le(group.load(Samples::shininess),
+                         set(static_cast<float>(twin::kFewPointsUpTo)));
+    if (!hn::AllFalse(D(), few)) lobe = face_lobe(group, light, points(1.0), half_right, half_up);
+    if (!hn::AllTrue(D(), few))
+      lobe = hn::IfThenElse(few, lobe, face_lobe(group, light, points(1e3), half_right, half_up));
+  }
+  hn::Store(hn::Mul(weight, lobe), D(), out);
+}
+
+/// Lambert's formula over the whole rectangle. x0..y1: the edges as the sample sees them; h its
+/// distance from the face's plane; n the normal in the plate's axes. Not cut at the horizon.
+struct Seen {
+  V x0, x1, y0, y1, h;
+};
+HWY_INLINE V whole_plate(const Seen& s, Vec n) {
+  const V xx0 = hn::Mul(s.x0, s.x0), xx1 = hn::Mul(s.x1, s.x1);
+  const V yy0 = hn::MulAdd(s.y0, s.y0, hn::Mul(s.h, s.h));
+  const V yy1 = hn::MulAdd(s.y1, s.y1, hn::Mul(s.h, s.h));
+  const V i00 = inverse_root(hn::Add(xx0, yy0)), i10 = inverse_root(hn::Add(xx1, yy0));
+  const V i11 = inverse_root(hn::Add(xx1, yy1)), i01 = inverse_root(hn::Add(xx0, yy1));
+  const V width = hn::Sub(s.x1, s.x0), height = hn::Sub(s.y1, s.y0);
+  const V hh = hn::Mul(s.h, s.h), x01 = hn::Mul(s.x0, s.x1);
+  const V y01 = hn::MulAdd(s.y0, s.y1, hh);
+  const auto edge = [](V cosine_over, V a, V b) HWY_ATTR {
+    const V both = hn::Mul(a, b);
+    return hn::Mul(both, angle_over_sine(hn::Mul(cosine_over, both)));
+  };
+  const V bottom = hn::Mul(width, edge(hn::Add(x01, yy0), i00, i10));
+  const V top = hn::Mul(width, edge(hn::Add(x01, yy1), i01, i11));
+  const V right = hn::Mul(height, edge(hn::Add(xx1, y01), i10, i11));
+  const V left = hn::Mul(height, edge(hn::Add(xx0, y01), i00, i01));
+  const V fx = hn::Mul(s.h, hn::Sub(left, right)), fy = hn::Mul(s.h, hn::Sub(bottom, top));
+  const V fz = hn::Add(hn::MulSub(s.y1, top, hn::Mul(s.y0, bottom)),
+                       hn::MulSub(s.x1, right, hn::Mul(s.x0, left)));
+  return dot(n, {fx, fy, fz});
+}
+
+/// One edge of a polygon whose corners are anywhere; zero-length corners give zero.
+HWY_INLINE V any_edge(Vec a, Vec b, Vec n) {
+  const V tiny = set(1e-12f);
+  const V both = hn::Mul(inverse_root(hn::Max(dot(a, a), tiny)), inverse_root(hn::Max(dot(b, b), tiny)));
+  const V cosine = hn::Min(hn::Max(hn::Mul(dot(a, b), both), set(-1)), set(1));
+  const Vec across{hn::MulSub(a.y, b.z, hn::Mul(a.z, b.y)), hn::MulSub(a.z, b.x, hn::Mul(a.x, b.z)),
+                   hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
+  return hn::Mul(hn::Mul(dot(across, n), both), angle_over_sine(cosine));
+}
+
+HWY_INLINE Vec choose(M m, Vec a, Vec b) {
+  return {hn::IfThenElse(m, a.x, b.x), hn::IfThenElse(m, a.y, b.y), hn::IfThenElse(m, a.z, b.z)};
+}
+
+/// The same, cut at the surface's horizon: each edge keeps its part above, and one more edge along
+/// the horizon closes the polygon from where it was left to where it is entered again.
+HWY_INLINE V cut_plate(const Seen& s, Vec n) {
+  const Vec corners[4] = {{s.x0, s.y0, s.h}, {s.x1, s.y0, s.h}, {s.x1, s.y1, s.h}, {s.x0, s.y1, s.h}};
+  const Vec none{zero(), zero(), zero()};
+  Vec left = none, entered = none;
+  V sum = zero();
+  for (int k = 0; k < 4; ++k) {
+    const Vec a = corners[k], b = corners[(k + 1) % 4];
+    const V za = dot(n, a), zb = dot(n, b);
+    const M a_up = hn::Ge(za, zero()), b_up = hn::Ge(zb, zero());
+    const V gap = hn::Sub(za, zb);
+    const V safe = hn::IfThenElse(hn::Lt(hn::Abs(gap), set(1e-20f)), set(1e-20f), gap);
+    const Vec crossing = scaled_sum(a, hn::Div(za, safe), minus(b, a));
+    const Vec from = choose(a_up, a, crossing), to = choose(b_up, b, crossing);
+    const M some = hn::Or(a_up, b_up);
+    sum = hn::Add(sum, hn::IfThenElseZero(some, any_edge(from, to, n)));
+    left = choose(hn::AndNot(b_up, a_up), crossing, left);
+    entered = choose(hn::AndNot(a_up, b_up), crossing, entered);
+  }
+  return hn::Add(sum, any_edge(left, entered, n));
+}
+
+HWY_INLINE void shade_rectangle(const Samples& samples, const twin::Light& light, std::size_t tile,
+                                float* irradiance, float* glossy) {
+  const double luminance = light.candela / std::max(light.width * light.height, 1e-9);
+  const Vec centre = broadcast(light.position), right = broadcast(light.right),
+            up = broadcast(light.up), ahead = broadcast(light.direction);
+  const V half_width = set(static_cast<float>(0.5 * light.width));
+  const V half_height = set(static_cast<float>(0.5 * light.height));
+  const V half_luminance = set(static_cast<float>(0.5 * luminance));
+  for (std::size_t i = 0; i < kTile; i += lanes()) {
+    const Group group{samples, tile * kTile + i};
+    const Vec to = minus(centre, group.position()), normal = group.normal();
+    const V x = dot(to, right), y = dot(to, up), h = dot(to, ahead);
+    const Seen seen{hn::Sub(x, half_width), hn::Add(x, half_width), hn::Sub(y, half_height),
+                    hn::Add(y, half_height), h};
+    const Vec n{dot(normal, right), dot(normal, up), dot(normal, ahead)};
+    // Highest and lowest corner over the surface.
+    const V middle = dot(n, {x, y, h});
+    const V reach =
+        hn::MulAdd(hn::Abs(n.x), half_width, hn::Mul(hn::Abs(n.y), half_height));
+    const M dark = hn::Or(hn::Ge(h, zero()), hn::Le(hn::Add(middle, reach), zero()));
+    V lux = zero();
+    if (!hn::AllTrue(D(), dark)) {
+      const M cut = hn::Lt(middle, reach);
+      V sum = hn::AllTrue(D(), hn::Or(cut, dark)) ? zero() : whole_plate(seen, n);
+      const M needs_cut = hn::AndNot(dark, cut);
+      if (!hn::AllFalse(D(), needs_cut))
+        sum = hn::IfThenElse(needs_cut, cut_plate(seen, n), sum);
+      lux = hn::IfThenZeroElse(dark, hn::Mul(half_luminance, hn::Abs(sum)));
+      if (light.attenuation != studio::Optic::Attenuation::inverse_square) {
+        const V square = hn::Max(dot(to, to), set(1e-12f));
+        lux = hn::Mul(hn::Mul(lux, square), faded(light.attenuation, inverse_root(square)));
+      }
+    }
+    hn::Store(lux, D(), irradiance + i);
+    if (glossy != nullptr)
+      gloss_of_face(group, light, twin::face_points, 0.5 * light.width, 0.5 * light.height,
+                    glossy + i);
+  }
+}
+
+/// As in twin/lights/disk.cpp.
+HWY_INLINE V capped(V f, V cosine) {
+  const V whole = hn::Mul(f, hn::Max(cosine, zero()));
+  const M cut = hn::Lt(hn::Mul(cosine, cosine), f);
+  if (hn::AllFalse(D(), cut)) return whole;
+  const V sine = hn::Sqrt(hn::Max(hn::NegMulAdd(cosine, cosine, set(1)), set(1e-12f)));
+  const V x = hn::Sqrt(hn::Max(hn::Sub(hn::Div(set(1), hn::Max(f, set(1e-12f))), set(1)), zero()));
+  const V y =
+      hn::Min(hn::Max(hn::Neg(hn::Div(hn::Mul(x, cosine), sine)), set(-1)), set(1));
+  const V z = hn::Mul(sine, hn::Sqrt(hn::Max(hn::NegMulAdd(y, y, set(1)), zero())));
+  const V atan = arc_cosine(
+      hn::Mul(x, inverse_root(hn::Max(hn::MulAdd(x, x, hn::Mul(z, z)), set(1e-12f)))));
+  const V part = hn::MulAdd(hn::MulSub(cosine, arc_cosine(y), hn::Mul(x, z)), f, atan);
+  const V some = hn::Mul(hn::Max(part, zero()), set(static_cast<float>(1 / core::kPi)));
+  return hn::IfThenElse(cut, some, whole);
+}
+
+HWY_INLINE void shade_disk(const Samples& samples, const twin::Light& light, std::size_t tile,
+                           float* irradiance, float* glossy) {
+  const Vec centre = broadcast(light.position), ahead = broadcast(light.direction);
+  const V rr = set(static_cast<float>(light.radius * light.radius));
+  // pi x luminance = candela / radius^2
+  const V scale =
+      set(static_cast<float>(light.candela / std::max(light.radius * light.radius, 1e-9)));
+  for (std::size_t i = 0; i < kTile; i += lanes()) {
+    const Group group{samples, tile * kTile + i};
+    const Vec from = minus(group.position(), centre), n = group.normal();
+    const V h = dot(from, ahead);
+    const Vec aside = scaled_sum(from, hn::Neg(h), ahead);
+    const V dd = dot(aside, aside), hh = hn::Mul(h, h);
+    const V q = hn::Add(hn::Add(hh, dd), rr), off = hn::Sub(hn::Add(hh, dd), rr);
+    // (q^2 - 4 rr dd) without its cancellation: off^2 + 4 rr hh
+    const V s = hn::Sqrt(hn::Max(hn::MulAdd(off, off, hn::Mul(set(4), hn::Mul(rr, hh))), set(1e-20f)));
+    const V axial_far = hn::Div(hn::Mul(set(2), hn::Mul(rr, hh)),
+                                hn::Mul(s, hn::Max(hn::Add(s, off), set(1e-12f))));
+    const V axial_near = hn::Mul(set(0.5f), hn::Sub(set(1), hn::Div(off, s)));
+    const V axial = hn::IfThenElse(hn::Gt(off, zero()), axial_far, axial_near);
+    const V radial = hn::Div(hn::Mul(set(2), hn::Mul(h, rr)), hn::Mul(s, hn::Add(q, s)));
+    const Vec vector{hn::NegMulSub(axial, ahead.x, hn::Mul(radial, aside.x)),
+                     hn::NegMulSub(axial, ahead.y, hn::Mul(radial, aside.y)),
+                     hn::NegMulSub(axial, ahead.z, hn::Mul(radial, aside.z))};
+    const V square = hn::Max(dot(vector, vector), set(1e-24f));
+    const V inverse = inverse_root(square);
+    const V f = hn::Min(hn::Mul(square, inverse), set(1));
+    V lux = hn::Mul(scale, capped(f, hn::Min(hn::Mul(dot(vector, n), inverse), set(1))));
+    if (light.attenuation != studio::Optic::Attenuation::inverse_square) {
+      const V far = hn::Max(dot(from, from), set(1e-12f));
+      lux = hn::Mul(hn::Mul(lux, far), faded(light.attenuation, inverse_root(far)));
+    }
+    hn::Store(hn::IfThenElseZero(hn::Gt(h, zero()), lux), D(), irradiance + i);
+    if (glossy != nullptr)
+      gloss_of_face(group, light, twin::disk_points, light.radius, light.radius, glossy + i);
+  }
+}
+
+/// False when this kind has no vector kernel.
+bool Shade(const Samples& s, const twin::Light& light, std::size_t tile, float* irradiance,
+           float* glossy) {
+  using Kind = studio::Optic::Kind;
+  switch (light.kind) {
+    case Kind::point: shade_point(s, light, tile, irradiance, glossy); return true;
+    case Kind::spot: shade_spot(s, light, tile, irradiance, glossy); return true;
+    case Kind::directional: shade_directional(s, light, tile, irradiance, glossy); return true;
+    case Kind::rectangle: shade_rectangle(s, light, tile, irradiance, glossy); return true;
+    case Kind::disk: shade_disk(s, light, tile, irradiance, glossy); return true;
+  }
+  return false;
+}
+
+void Combine(const float* albedo, const float* irradiance, const float* glossy,
+             const float* visible, float k, float g, float* out, std::size_t n) {
+  const V kv = set(k), gv = set(g);
+  for (std::size_t i = 0; i < n; i += lanes()) {
+    V v = hn::Mul(hn::Mul(kv, hn::LoadU(D(), albedo + i)), hn::LoadU(D(), irradiance + i));
+    if (glossy != nullptr) v = hn::MulAdd(gv, hn::LoadU(D(), glossy + i), v);
+    if (visible != nullptr) v = hn::Mul(v, hn::LoadU(D(), visible + i));
+    hn::StoreU(v, D(), out + i);
+  }
+}
+
+void CombineRgb(const Samples& samples, std::size_t tile, const float* irradiance,
+                const float* glossy, const float* visible, const float* rgb, float g, float* out) {
+  const V r = set(rgb[0]), gr = set(rgb[1]), b = set(rgb[2]), gv = set(g);
+  for (std::size_t i = 0; i < kTile; i += lanes()) {
+    const Group group{samples, tile * kTile + i};
+    const V albedo = hn::MulAdd(
+        r, group.load(Samples::diffuse_r),
+        hn::MulAdd(gr, group.load(Samples::diffuse_g), hn::Mul(b, group.load(Samples::diffuse_b))));
+    V v = hn::Mul(albedo, hn::LoadU(D(), irradiance + i));
+    if (glossy != nullptr) v = hn::MulAdd(gv, hn::LoadU(D(), glossy + i), v);
+    if (visible != nullptr) v = hn::Mul(v, hn::LoadU(D(), visible + i));
+    hn::StoreU(v, D(), out + i);
+  }
+}
+
+void BlendBits(std::span<const Bits> places, float* out, std::size_t n) {
+  for (std::size_t i = 0; i < n; i += lanes()) {
+    V sum = zero();
+    for (const Bits& place : places) {
+      // A mask is read from at least 8 bytes; the lists are padded for that.
+      const std::uint8_t* from = place.bits + i / 8;
+      std::uint8_t shifted[8];
+      if (lanes() < 8) {
+        shifted[0] = static_cast<std::uint8_t>(from[0] >> (i % 8));
+        from = shifted;
+      }
+      const M open = hn::LoadMaskBits(D(), from);
+      sum = hn::Add(sum, hn::IfThenElseZero(open, set(place.weight)));
+    }
+    hn::StoreU(sum, D(), out + i);
+  }
+}
+
+void BlendBytes(std::span<const Bytes> places, float* out, std::size_t n) {
+  const hn::RebindToSigned<D> di;
+  const hn::Rebind<std::uint8_t, D> du8;
+  for (std::size_t i = 0; i < n; i += lanes()) {
+    V sum = zero();
+    for (const Bytes& place : places) {
+      const auto bytes = hn::PromoteTo(di, hn::LoadU(du8, place.bytes + i));
+      sum = hn::MulAdd(set(place.weight * (1.0f / 255)), hn::ConvertTo(D(), bytes), sum);
+    }
+    hn::StoreU(sum, D(), out + i);
+  }
+}
+
+void Mix(std::span<const float* const> planes, std::span<const float> levels, const float* ambient,
+         float* out, std::size_t n) {
+  const std::size_t step = lanes();
+  std::size_t i = 0;
+  // Two accumulators: the additions of one plane do not wait for the last's.
+  for (; i + 2 * step <= n; i += 2 * step) {
+    V a = hn::LoadU(D(), ambient + i), b = hn::LoadU(D(), ambient + i + step);
+    for (std::size_t k = 0; k < planes.size(); ++k) {
+      const V level = set(levels[k]);
+      a = hn::MulAdd(level, hn::LoadU(D(), planes[k] + i), a);
+      b = hn::MulAdd(level, hn::LoadU(D(), planes[k] + i + step), b);
+    }
+    hn::StoreU(a, D(), out + i);
+    hn::StoreU(b, D(), out + i + step);
+  }
+  for (; i < n; ++i) {
+    float v = ambient[i];
+    for (std::size_t k = 0; k < planes.size(); ++k) v += levels[k] * planes[k][i];
+    out[i] = v;
+  }
+}
+
+}  // namespace chiaro::render::kernels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace chiaro::render::kernels {
+
+HWY_EXPORT(Shade);
+HWY_EXPORT(Combine);
+HWY_EXPORT(CombineRgb);
+HWY_EXPORT(BlendBits);
+HWY_EXPORT(BlendBytes);
+HWY_EXPORT(Mix);
+
+namespace {
+core::Vec3 triple(const Samples& s, Samples::Channel x, Samples::Channel y, Samples::Channel z,
+                  std::size_t i) {
+  return {s.channel(x)[i], s.channel(y)[i], s.channel(z)[i]};
+}
+
+void shade_by_formula(const Samples& s, const twin::Light& light, std::size_t tile,
+                      float* irradiance, float* glossy) {
+  const twin::LightModel& model = twin::light_model(light.kind);
+  for (std::size_t k = 0; k < kTile; ++k) {
+    const std::size_t i = tile * kTile + k;
+    const auto at = triple(s, Samples::position_x, Samples::position_y, Samples::position_z, i);
+    const auto n = triple(s, Samples::normal_x, Samples::normal_y, Samples::normal_z, i);
+    const auto v = triple(s, Samples::viewer_x, Samples::viewer_y, Samples::viewer_z, i);
+    irradiance[k] = static_cast<float>(model.irradiance(light, at, n));
+    if (glossy == nullptr) continue;
+    const float weight = s.channel(Samples::specular)[i];
+    glossy[k] = weight <= 0 ? 0
+                            : weight * static_cast<float>(model.specular(
+                                           light, at, n, v, s.channel(Samples::shininess)[i]));
+  }
+}
+}  // namespace
+
+void shade(const Samples& samples, const twin::Light& light, std::size_t tile, float* irradiance,
+           float* glossy) {
+  if (!HWY_DYNAMIC_DISPATCH(Shade)(samples, light, tile, irradiance, glossy))
+    shade_by_formula(samples, light, tile, irradiance, glossy);
+}
+void combine(const float* albedo, const float* irradiance, const float* glossy,
+             const float* visible, float k, float g, float* out, std::size_t n) {
+  HWY_DYNAMIC_DISPATCH(Combine)(albedo, irradiance, glossy, visible, k, g, out, n);
+}
+void combine_rgb(const Samples& samples, std::size_t tile, const float* irradiance,
+                 const float* glossy, const float* visible, const float rgb[3], float glossy_gain,
+                 float* out) {
+  HWY_DYNAMIC_DISPATCH(CombineRgb)
+  (samples, tile, irradiance, glossy, visible, rgb, glossy_gain, out);
+}
+void blend_bits(std::span<const Bits> places, float* out, std::size_t n) {
+  HWY_DYNAMIC_DISPATCH(BlendBits)(places, out, n);
+}
+void blend_bytes(std::span<const Bytes> places, float* out, std::size_t n) {
+  HWY_DYNAMIC_DISPATCH(BlendBytes)(places, out, n);
+}
+void mix(std::span<const float* const> planes, std::span<const float> levels, const float* ambient,
+         float* out, std::size_t n) {
+  HWY_DYNAMIC_DISPATCH(Mix)(planes, levels, ambient, out, n);
+}
+
+void for_each_target(void (*f)(void* context), void* context) {
+  const std::int64_t all = hwy::SupportedTargets();
+  for (std::int64_t rest = all; rest != 0; rest &= rest - 1) {
+    hwy::SetSupportedTargetsForTest(rest & -rest);
+    f(context);
+  }
+  hwy::SetSupportedTargetsForTest(0);
+}
+
+}  // namespace chiaro::render::kernels
+#endif
