@@ -48,6 +48,7 @@ struct Options {
   std::optional<studio::Rig> start;  ///< warm start
   bool move_stands = true;           ///< false: solve levels and colours for the placed rig only
   bool advise_exposure = false;
+  bool align = false;      ///< by example: shift and scale the exemplar to lie on the subject
   bool reference = false;  ///< yardstick: no cache, one thread, levels searched
   core::Size search_size{128, 128}, full_size{256, 256};
   int threads = 2;

@@ -13,6 +13,9 @@
 namespace chiaro::design {
 
 /// A folder in config/moods: `mood.yaml`, `recipe.yaml` (how the picture was drawn), `picture.png`.
+/// mood.yaml has title, sentence, tags (a list), attainable (true or false) and, for 3D exemplars,
+/// targets: {edge, mean, gradient, variance, contrast, histogram: [256 shares]}, measured on the
+/// picture's central square at 256 x 256, in the units of measure::Components.
 struct Mood {
   std::string name;      ///< the folder's name: "rembrandt"
   std::string title;     ///< "Rembrandt"
@@ -28,6 +31,8 @@ struct Moods {
   core::Problems problems;
 };
 Moods load_moods(const std::filesystem::path& folder);
+/// The targets of a 3D exemplar from a YAML file: a mood.yaml, or its `targets:` mapping alone.
+core::Result<measure::Targets> load_targets(const std::filesystem::path& file);
 core::Result<ExampleGoal> goal_of(const Mood& mood, Objective objective);
 
 }  // namespace chiaro::design

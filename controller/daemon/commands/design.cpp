@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: Apache-2.0
+// chiaro design: one look on the command line, with a live progress line.
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <ostream>
+#include <thread>
+
+#include "controller/core/picture_file.h"
+#include "controller/daemon/command.h"
+#include "controller/daemon/problems.h"
+#include "controller/design/moods.h"
+#include "controller/design/words.h"
+#include "controller/studio/load.h"
+
+namespace chiaro::daemon {
+namespace {
+
+/// As typed.
+struct Asked {
+  std::string studio, mood, exemplar, targets, goal = "wavelet", optimiser, exposure = "locked";
+  std::string align = "none", out, picture, budget;
+  std::vector<std::string> lock;
+  std::uint64_t seed = 1, trials = 0;
+  int threads = 0;
+  bool ideal = false, reference = false;
+};
+
+double seconds_of(const ports::World& world) {
+  return std::chrono::duration<double>(world.clock.now().time_since_epoch()).count();
+}
+
+/// One line on the person's stream, redrawn in place on a terminal; else a line per stage.
+class ProgressLine {
+ public:
+  explicit ProgressLine(ports::World& world) : world_(world), started_(seconds_of(world)) {}
+  ~ProgressLine() { clear(); }
+  void clear() {
+    if (drawn_) world_.err << "\r\x1b[K" << std::flush;
+    drawn_ = false;
+  }
+  void show(const design::Progress& progress) {
+    if (!world_.err_is_terminal) {
+      if (progress.stage != stage_) world_.err << progress.stage << " …\n" << std::flush;
+      stage_ = progress.stage;
+      return;
+    }
+    const double now = seconds_of(world_);
+    if (drawn_ && now - last_ < 0.05) return;
+    last_ = now;
+    drawn_ = true;
+    world_.err << "\r\x1b[K" << line(progress, now - started_) << std::flush;
+  }
+
+ private:
+  static std::string line(const design::Progress& progress, double elapsed) {
+    std::string text = progress.stage + ": trial " + std::to_string(progress.trial);
+    const bool endless = progress.trials > 10'000'000;
+    if (!endless) text += " of " + std::to_string(progress.trials);
+    if (std::isfinite(progress.best)) text += ", best " + design::number(progress.best, 3);
+    if (!endless && progress.trial > 20 && progress.trials > progress.trial) {
+      const double left = elapsed * static_cast<double>(progress.trials - progress.trial) /
+                          static_cast<double>(progress.trial);
+      text += ", " + design::number(left, 1) + " s left";
+    }
+    return text;
+  }
+  ports::World& world_;
+  const double started_;
+  double last_ = 0;
+  bool drawn_ = false;
+  std::string stage_;
+};
+
+core::Result<design::Goal> mood_goal(const Asked& asked, const studio::Folders& folders,
+                                     design::Objective objective, ports::World& world) {
+  const design::Moods moods = design::load_moods(folders.moods());
+  std::vector<std::string> names;
+  std::string list;
+  for (const design::Mood& mood : moods.moods) {
+    names.push_back(mood.name);
+    list += (list.empty() ? "" : ", ") + mood.name;
+    if (mood.name != asked.mood) continue;
+    auto goal = design::goal_of(mood, objective);
+    if (!goal) return goal.problems();
+    return design::Goal(*std::move(goal));
+  }
+  for (const core::Problem& problem : moods.problems) world.err << core::to_string(problem) << "\n";
+  const std::string near = core::nearest_name(asked.mood, names);
+  return core::Problem{{},
+                       "no mood is called \"" + asked.mood + "\"",
+                       list.empty() ? "there are none in " + folders.moods().string()
+                                    : (near.empty() ? "" : "did you mean \"" + near + "\"? ") +
+                                          "there are: " + list};
+}
+
+core::Result<design::Goal> goal_from(const Asked& asked, const studio::Folders& folders,
+                                     ports::World& world) {
+  if (asked.ideal) return design::Goal(design::IdealGoal{});
+  const design::Objective objective =
+      asked.goal == "perceptual" ? design::Objective::perceptual : design::Objective::wavelet;
+  if (!asked.mood.empty()) return mood_goal(asked, folders, objective, world);
+  auto picture = core::read_picture(asked.exemplar);
+  if (!picture) return picture.problems();
+  design::ExampleGoal goal;
+  goal.name = std::filesystem::path(asked.exemplar).stem().string();
+  goal.exemplar = core::linear(*picture);
+  goal.objective = objective;
+  if (!asked.targets.empty()) {
+    auto targets = design::load_targets(asked.targets);
+    if (!targets) return targets.problems();
+    goal.targets3d = *targets;
+  }
+  return design::Goal(std::move(goal));
+}
+
+std::optional<double> budget_seconds(const std::string& text) {
+  double value = 0;
+  char unit[4] = "";
+  const int read = std::sscanf(text.c_str(), "%lf%3s", &value, unit);
+  const std::string word = unit;
+  if (read < 2 || !(value > 0) || !std::isfinite(value)) return std::nullopt;
+  if (word == "ms") return value / 1000;
+  if (word == "s") return value;
+  return std::nullopt;
+}
+
+design::Options options_from(const Asked& asked, ports::World& world, ProgressLine& line) {
+  design::Options options;
+  // As printed in the thesis, its reference searches by annealing.
+  options.optimiser = !asked.optimiser.empty() ? asked.optimiser
+                      : asked.reference        ? "annealing"
+                                               : "sbplx";
+  options.seed = asked.seed;
+  options.trials = asked.trials;
+  if (!asked.budget.empty()) options.budget_s = budget_seconds(asked.budget);
+  options.locked = asked.lock;
+  options.advise_exposure = asked.exposure == "advise";
+  options.align = asked.align == "auto";
+  options.reference = asked.reference;
+  const int cores = static_cast<int>(std::thread::hardware_concurrency());
+  options.threads = asked.reference ? 1 : asked.threads > 0 ? asked.threads : std::max(1, cores);
+  options.stop = &world.stop;
+  options.seconds = [&world] { return seconds_of(world); };
+  options.progress = [&line](const design::Progress& progress) { line.show(progress); };
+  return options;
+}
+
+std::string per_cent(double share) { return design::number(100 * share, share < 0.1 ? 1 : 0); }
+
+void print_lamps(const studio::Studio& studio, const studio::Rig& rig, std::ostream& out) {
+  for (std::size_t i = 0; i < studio.fixtures.size(); ++i) {
+    const core::FixtureState& state = rig.states[i];
+    const double level = state.get(core::Dof::intensity);
+    out << "  " << studio.fixtures[i].name << ": ";
+    if (level <= 0.0005) {
+      out << "dark\n";
+      continue;
+    }
+    out << design::level_in_words(level);
+    if (level < 0.995) out << " (" << design::stops_in_words(std::log2(level)) << " below full)";
+    if (state.has(core::Dof::azimuth) && state.has(core::Dof::distance))
+      out << ", "
+          << design::place_in_words({state.get(core::Dof::azimuth), state.get(core::Dof::elevation),
+                                     state.get(core::Dof::distance)});
+    if (state.has(core::Dof::cct))
+      out << ", " << design::number(state.get(core::Dof::cct), 0) << " K";
+    out << "\n";
+  }
+}
+
+void print_summary(const studio::Studio& studio, const design::Look& look, std::ostream& out) {
+  out << look.name << " (" << look.goal << "): " << design::name_of(look.judgement.verdict) << ", "
+      << per_cent(look.judgement.residual) << " % off\n";
+  if (!look.judgement.remedy.empty()) out << "  " << look.judgement.remedy << "\n";
+  print_lamps(studio, look.wanted, out);
+  if (const auto ratio = design::key_fill_ratio(studio, look.wanted))
+    out << "  key to fill " << design::number(*ratio, *ratio < 10 ? 1 : 0) << ":1 ("
+        << design::stops_in_words(std::log2(*ratio)) << ")\n";
+  if (!look.instructions.empty()) out << "By hand:\n";
+  for (const std::string& line : look.instructions) out << "  " << line << "\n";
+  if (!(look.placed == look.wanted))
+    out << "As the lamps stand now: " << design::name_of(look.placed_judgement.verdict) << ", "
+        << per_cent(look.placed_judgement.residual) << " % off\n";
+  for (const std::string& line : look.warnings) out << "warning: " << line << "\n";
+  out << look.trials << " trials in " << design::number(look.seconds, 2) << " s"
+      << (look.stopped_by_time ? ", stopped by time" : "") << "\n";
+}
+
+ports::Exit write_results(const Asked& asked, const studio::Studio& studio,
+                          const design::Look& look, bool json, ports::World& world) {
+  const std::string text = design::look_to_json(studio, look);
+  if (!asked.out.empty()) {
+    std::ofstream file(asked.out, std::ios::trunc);
+    file << text;
+    if (!file.flush()) {
+      return refuse({{{asked.out},
+                      "the look cannot be written",
+                      "is there such a folder, and may you write in it?"}},
+                    world, false);
+    }
+  }
+  if (!asked.picture.empty()) {
+    const auto written = core::write_png(asked.picture, core::encoded(look.picture));
+    if (!written) return refuse(written.problems(), world, false);
+  }
+  if (json) world.out << text;
+  print_summary(studio, look, json ? world.err : world.out);
+  return ports::Exit::done;
+}
+
+ports::Exit run_design(const Asked& asked, ports::World& world, bool json) {
+  const studio::Folders folders{world.config_folder};
+  auto loaded = studio::load_studio(asked.studio, folders);
+  if (!loaded) return refuse(loaded.problems(), world, json);
+  world.err << core::to_string(loaded->warnings);
+  auto goal = goal_from(asked, folders, world);
+  if (!goal) return refuse(goal.problems(), world, json);
+  ProgressLine line(world);
+  const design::Options options = options_from(asked, world, line);
+  design::GeometricOptions geometric;
+  geometric.mesh_cache = world.state_folder / "meshes";
+  geometric.reference = asked.reference;
+  geometric.threads = options.threads;
+  auto twin = design::geometric_layers(loaded->studio, geometric);
+  if (!twin) return refuse(twin.problems(), world, json);
+  core::Result<design::Look> look = design::design(loaded->studio, **twin, *goal, options);
+  line.clear();
+  if (!look) return refuse(look.problems(), world, json);
+  return write_results(asked, loaded->studio, *look, json, world);
+}
+
+void add_options(CLI::App& verb, Asked& asked) {
+  verb.add_option("STUDIO", asked.studio, "the studio file")->required();
+  auto* what = verb.add_option_group("what to aim at");
+  what->add_flag("--ideal", asked.ideal, "show the subject's shape as well as can be");
+  what->add_option("--mood", asked.mood, "a mood by name");
+  what->add_option("--exemplar", asked.exemplar, "any picture whose lighting you like");
+  what->require_option(1);
+  verb.add_option("--goal", asked.goal, "how a picture is compared (default wavelet)")
+      ->check(CLI::IsMember({"perceptual", "wavelet"}));
+  verb.add_option("--targets", asked.targets, "edge and contrast targets of a 3D exemplar (YAML)")
+      ->check(CLI::ExistingFile)
+      ->needs("--exemplar");
+  verb.add_option("--optimiser", asked.optimiser, "how places are searched (default sbplx)");
+  verb.add_option("--seed", asked.seed, "same seed and trials, same look (default 1)");
+  auto* trials = verb.add_option("--trials", asked.trials, "how many places to try");
+  verb.add_option("--budget", asked.budget, "or how long, as in 2s or 500ms")
+      ->excludes(trials)
+      ->check([](const std::string& text) {
+        return budget_seconds(text) ? std::string()
+                                    : "\"" + text + "\" is not a time such as 2s or 500ms";
+      });
+  verb.add_option("--lock", asked.lock, "a fixture to leave as it is (may be repeated)")
+      ->allow_extra_args(false);
+  verb.add_option("--exposure", asked.exposure,
+                  "advise: may tell you to change the camera (default locked)")
+      ->check(CLI::IsMember({"locked", "advise"}));
+  verb.add_option("--align", asked.align,
+                  "auto: shifts and scales the picture to lie on the subject (default none)")
+      ->check(CLI::IsMember({"auto", "none"}));
+  verb.add_option("--out", asked.out, "where to write the look (look.json)");
+  verb.add_option("--picture", asked.picture, "where to write the predicted picture (PNG)");
+  verb.add_flag("--reference", asked.reference,
+                "the yardstick: everything rendered anew, one thread, levels searched");
+  verb.add_option("--threads", asked.threads, "planner threads (default: one a core)")
+      ->check(CLI::Range(1, 256));
+}
+
+}  // namespace
+
+void declare_design(CLI::App& app, ports::World& world, Verdict& verdict) {
+  auto asked = std::make_shared<Asked>();
+  CLI::App* verb = app.add_subcommand("design", "a look from a mood, a picture or none");
+  add_options(*verb, *asked);
+  verb->callback(
+      [asked, &world, &verdict] { verdict.exit = run_design(*asked, world, verdict.json); });
+}
+
+}  // namespace chiaro::daemon

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// One look, from goal to picture: read design() aloud.
+#include "controller/design/design.h"
+
+#include <cmath>
+
+#include "controller/design/colours.h"
+#include "controller/design/exposure.h"
+#include "controller/design/judge.h"
+#include "controller/design/stages.h"
+#include "controller/design/words.h"
+
+namespace chiaro::design {
+namespace {
+
+core::Problems every_problem(const studio::Studio& studio, const LayersSource& twin,
+                             const Goal& goal, const Options& options) {
+  core::Problems problems = problems_of(studio, options);
+  if (core::any_error(problems)) return problems;
+  return problems_of(goal, twin.at(options.full_size).geometry() != nullptr);
+}
+
+std::string goal_in_words(const Goal& goal) {
+  const auto* example = std::get_if<ExampleGoal>(&goal);
+  if (example == nullptr) return "ideal";
+  return std::string("by example, ") +
+         (example->objective == Objective::wavelet ? "wavelet" : "perceptual") + ": " +
+         example->name;
+}
+
+/// Where the lamps should stand.
+studio::Rig wanted_placements(const studio::Studio& studio, const LayersSource& twin,
+                              const Goal& goal, const Options& options, const Variables& all,
+                              const Prepared& full, Watch& watch,
+                              std::vector<std::string>& warnings) {
+  const Variables lamps = searched(studio, all, goal);
+  if (lamps.moving.empty() || options.reference) return all.base;
+  const Prepared small = prepare(studio, twin.at(options.search_size), goal, all);
+  const Setting coarse{studio, small.layers, lamps, small.target, small.map, Accuracy::cached};
+  const Setting fine{studio, full.layers, lamps, full.target, full.map, Accuracy::cached};
+  const Found found = polish(fine, search(coarse, options, watch), options, watch);
+  if (std::isfinite(found.cost)) return lamps.rig(found.point);
+  warnings.push_back("no allowed place was found for the lamps together: they stay where they are");
+  return all.base;
+}
+
+void warn_of_places(const studio::Studio& studio, const Layers& layers, const studio::Rig& placed,
+                    std::vector<std::string>& warnings) {
+  for (std::size_t i = 0; i < studio.fixtures.size(); ++i) {
+    const std::string why = layers.infeasible(placed, i);
+    if (!why.empty())
+      warnings.push_back(studio.fixtures[i].name + " stands where it should not: " + why);
+  }
+}
+
+void describe(const studio::Studio& studio, const Prepared& full, const Variables& all,
+              Look& look) {
+  const Variables lamps = judged(studio, full.target, all, look.wanted);
+  const Setting setting{studio, full.layers, lamps, full.target, full.map, Accuracy::exact};
+  Workspace workspace(setting);
+  look.judgement = judge(setting, workspace, look.wanted);
+  look.components = component_list(setting, workspace, look.wanted);
+  look.cost = workspace.score(look.wanted).cost;
+  look.placed_judgement =
+      look.placed == look.wanted ? look.judgement : judge(setting, workspace, look.placed);
+  look.picture = predicted(studio, full.layers, look.wanted, Accuracy::exact);
+  look.placed_picture = look.placed == look.wanted
+                            ? look.picture
+                            : predicted(studio, full.layers, look.placed, Accuracy::exact);
+}
+
+/// Where the lamps stand now; held ones also shine as the design holds them.
+studio::Rig placed_now(const studio::Studio& studio, const Variables& all) {
+  studio::Rig rig = studio::placed_rig(studio);
+  for (const std::size_t fixture : all.held) rig.states[fixture] = all.base.states[fixture];
+  return rig;
+}
+
+/// The yardstick's whole rig, levels as its search left them.
+studio::Rig reference_rig(const studio::Studio& studio, const Goal& goal, const Options& options,
+                          const Variables& all, const Prepared& full, Watch& watch) {
+  const Variables lamps = searched(studio, all, goal);
+  const Setting setting{studio, full.layers, lamps, full.target, full.map, Accuracy::exact};
+  return reference_search(setting, options, watch).rig;
+}
+
+/// The camera's change that would let the limited lamp do, as a factor per channel, and in words.
+core::Rgb advised_exposure(const studio::Studio& studio, const Prepared& full, Look& look) {
+  core::Rgb factor{1, 1, 1};
+  if (look.judgement.missing_stops > 0) {
+    look.exposure_advice_stops = std::ceil(3 * look.judgement.missing_stops - 1e-6) / 3;
+    factor = std::exp2(look.exposure_advice_stops) * factor;
+    look.instructions.push_back("expose the camera " + stops_in_words(look.exposure_advice_stops) +
+                                " more");
+  }
+  const core::Kelvin now = studio.exposure.white_balance;
+  look.advised_white_balance_k = better_white_balance(full.target, look.picture, now);
+  if (look.advised_white_balance_k) {
+    factor = factor * core::white_light(now, 0, core::Kelvin{*look.advised_white_balance_k});
+    look.instructions.push_back("set the camera's white balance to " +
+                                number(*look.advised_white_balance_k, 0) + " K");
+  }
+  return factor;
+}
+
+/// Solves again for the advised exposure, where there is one; the places stay.
+void advise_exposure(const studio::Studio& studio, const Prepared& full, const Goal& goal,
+                     const Variables& all, Watch& watch, Look& look) {
+  const core::Rgb factor = advised_exposure(studio, full, look);
+  if (factor == core::Rgb{1, 1, 1}) return;
+  const ReexposedLayers reexposed(full.layers, factor);
+  const Prepared again = prepare(studio, reexposed, goal, all);
+  look.wanted = completed(studio, again, all, look.wanted, false, watch);
+  look.placed = completed(studio, again, all, look.placed, false, watch);
+  describe(studio, again, all, look);
+}
+
+}  // namespace
+
+core::Result<Look> design(const studio::Studio& studio, const LayersSource& twin, const Goal& goal,
+                          const Options& options) {
+  core::Problems problems = every_problem(studio, twin, goal, options);
+  if (core::any_error(problems)) return problems;
+  Watch watch(options);
+  Look look;
+  const auto* example = std::get_if<ExampleGoal>(&goal);
+  look.name = example != nullptr ? example->name : "ideal";
+  look.goal = goal_in_words(goal);
+  look.optimiser = options.optimiser;
+  look.seed = options.seed;
+
+  const Variables all = variables_of(studio, options);
+  const Layers& layers = twin.at(options.full_size);
+  const Prepared full = prepare(studio, layers, goal, all);
+  const studio::Rig placements =
+      wanted_placements(studio, twin, goal, options, all, full, watch, look.warnings);
+  look.wanted = options.reference
+                    ? reference_rig(studio, goal, options, all, full, watch)
+                    : completed(studio, full, all, placements, options.move_stands, watch);
+  look.placed = completed(studio, full, all, placed_now(studio, all), false, watch);
+  describe(studio, full, all, look);
+  if (options.advise_exposure) advise_exposure(studio, full, goal, all, watch, look);
+
+  const auto moves = instructions(studio, studio::placed_rig(studio), look.wanted);
+  look.instructions.insert(look.instructions.end(), moves.begin(), moves.end());
+  warn_of_places(studio, layers, studio::placed_rig(studio), look.warnings);
+  look.trials = watch.trials();
+  look.stopped_by_time = watch.stopped();
+  look.seconds = watch.elapsed();
+  return look;
+}
+
+}  // namespace chiaro::design

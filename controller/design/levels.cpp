@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "controller/design/levels.h"
+
+#include "controller/design/perceptual_levels.h"
+#include "controller/design/wavelet_levels.h"
+
+namespace chiaro::design {
+
+std::unique_ptr<LevelSolver> level_solver(const Target& target, const measure::PixelMap& map) {
+  if (target.kind == Target::Kind::wavelet) return std::make_unique<WaveletLevels>(target);
+  return std::make_unique<PerceptualLevels>(target, map);
+}
+
+void mix(const Columns& columns, std::span<const double> levels, core::Plane& out) {
+  out = *columns.offset;
+  const std::size_t pixels = out.values.size();
+  for (std::size_t k = 0; k < columns.planes.size(); ++k) {
+    if (levels[k] == 0) continue;
+    const auto level = static_cast<float>(levels[k]);
+    const float* column = columns.planes[k]->values.data();
+    float* sum = out.values.data();
+    for (std::size_t i = 0; i < pixels; ++i) sum[i] += level * column[i];
+  }
+}
+
+}  // namespace chiaro::design

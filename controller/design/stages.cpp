@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "controller/design/stages.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "controller/design/colours.h"
+#include "controller/design/ideal.h"
+
+namespace chiaro::design {
+namespace {
+
+bool is_ideal(const Goal& goal) { return std::holds_alternative<IdealGoal>(goal); }
+
+/// The same lamps, standing still as in `rig`.
+Variables still(const Variables& all, const studio::Rig& rig) {
+  Variables variables = all;
+  variables.base = rig;
+  variables.moving.clear();
+  return variables;
+}
+
+Setting setting_of(const studio::Studio& studio, const Prepared& prepared,
+                   const Variables& variables, Accuracy accuracy) {
+  return {studio, prepared.layers, variables, prepared.target, prepared.map, accuracy};
+}
+
+studio::Rig with_solved_levels(const Setting& setting, const studio::Rig& rig) {
+  if (setting.variables.lit.empty()) return rig;
+  return with_levels(setting.variables, rig,
+                     Workspace(setting).solve(rig, Effort::thorough).levels);
+}
+
+bool is_flash(const studio::Fixture& fixture) {
+  return std::any_of(fixture.by_hand.begin(), fixture.by_hand.end(), [](const auto& binding) {
+    return binding.kind == studio::HandKind::flash_power && binding.dof == core::Dof::intensity;
+  });
+}
+
+/// Flash power is set in thirds of a stop: those lamps take the nearest, the others make up for it.
+studio::Rig with_flash_steps(const Setting& setting, studio::Rig rig) {
+  Variables others = setting.variables;
+  others.lit.clear();
+  others.limits.clear();
+  for (std::size_t k = 0; k < setting.variables.lit.size(); ++k) {
+    const std::size_t fixture = setting.variables.lit[k];
+    if (!is_flash(setting.studio.fixtures[fixture])) {
+      others.lit.push_back(fixture);
+      others.limits.push_back(setting.variables.limits[k]);
+      continue;
+    }
+    const double level = rig.states[fixture].get(core::Dof::intensity);
+    if (level > 0)
+      rig.states[fixture].set(core::Dof::intensity,
+                              std::exp2(std::min(0.0, std::round(3 * std::log2(level)) / 3)));
+    others.held.push_back(fixture);
+  }
+  if (others.lit.size() == setting.variables.lit.size()) return rig;
+  std::sort(others.held.begin(), others.held.end());
+  others.base = rig;
+  return with_solved_levels(
+      {setting.studio, setting.layers, others, setting.target, setting.map, setting.accuracy}, rig);
+}
+
+studio::Rig by_example(const Setting& setting, const studio::Rig& placements) {
+  const studio::Rig lit = with_solved_levels(setting, placements);
+  const studio::Rig coloured = with_colours(setting, lit);
+  const studio::Rig solved = coloured == lit ? lit : with_solved_levels(setting, coloured);
+  return with_flash_steps(setting, solved);
+}
+
+}  // namespace
+
+Variables searched(const studio::Studio& studio, const Variables& all, const Goal& goal) {
+  return is_ideal(goal) ? variables_of(studio, all, IdealStage::shape, all.base) : all;
+}
+
+Prepared prepare(const studio::Studio& studio, const Layers& layers, const Goal& goal,
+                 const Variables& variables) {
+  Prepared prepared{layers, target_of(goal, layers.size()), {}};
+  prepared.map = map_for(layers, prepared.target);
+  if (!is_ideal(goal)) return prepared;
+  const Variables shape = searched(studio, variables, goal);
+  prepared.target.ideal = attainable_targets(setting_of(studio, prepared, shape, Accuracy::cached));
+  return prepared;
+}
+
+studio::Rig completed(const studio::Studio& studio, const Prepared& full, const Variables& all,
+                      const studio::Rig& placements, bool may_move_back, Watch& watch) {
+  if (full.target.kind != Target::Kind::ideal) {
+    watch.begin("colour", 0);
+    const Variables lamps = still(all, placements);
+    return by_example(setting_of(studio, full, lamps, Accuracy::exact), placements);
+  }
+  watch.begin("back light", 0);
+  Variables shape = variables_of(studio, all, IdealStage::shape, placements);
+  shape.moving.clear();
+  const Setting first = setting_of(studio, full, shape, Accuracy::exact);
+  studio::Rig rig = with_flash_steps(first, with_solved_levels(first, shape.base));
+  const Variables lamps = still(all, rig);
+  const Setting after = setting_of(studio, full, lamps, Accuracy::cached);
+  rig = with_back_lights(after, std::move(rig), may_move_back);
+  return with_background_lights(after, std::move(rig));
+}
+
+Variables judged(const studio::Studio& studio, const Target& target, const Variables& all,
+                 const studio::Rig& rig) {
+  if (target.kind != Target::Kind::ideal) return still(all, rig);
+  Variables shape = variables_of(studio, all, IdealStage::shape, rig);
+  shape.base = rig;
+  shape.moving.clear();
+  return shape;
+}
+
+}  // namespace chiaro::design

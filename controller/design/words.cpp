@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "controller/design/words.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "controller/design/design.h"
+#include "controller/design/starts.h"
+#include "controller/design/variables.h"
+#include "controller/twin/scene.h"
+
+namespace chiaro::design {
+namespace {
+
+// A stand this near to where it should be is left alone.
+const double kSameAngle = core::radians(2);
+constexpr double kSameDistance = 0.05;
+constexpr double kSameKelvin = 75, kSameLevel = 0.01;
+
+core::Spherical place_of(const core::FixtureState& state) {
+  return {state.get(core::Dof::azimuth), state.get(core::Dof::elevation),
+          state.get(core::Dof::distance, 1)};
+}
+
+bool same_place(const core::Spherical& a, const core::Spherical& b) {
+  return std::abs(std::remainder(a.azimuth - b.azimuth, 2 * core::kPi)) < kSameAngle &&
+         std::abs(a.elevation - b.elevation) < kSameAngle &&
+         std::abs(a.distance - b.distance) < kSameDistance;
+}
+
+std::string by_hand(const studio::Fixture& fixture, const studio::HandBinding& binding,
+                    const core::FixtureState& now, const core::FixtureState& wanted) {
+  const double value = wanted.get(binding.dof);
+  const double change = std::abs(value - now.get(binding.dof));
+  switch (binding.kind) {
+    case studio::HandKind::knob:
+      if (binding.dof == core::Dof::cct)
+        return change < kSameKelvin
+                   ? ""
+                   : "set " + fixture.name + "'s colour to " + number(value, 0) + " K";
+      return change < kSameLevel
+                 ? ""
+                 : "set " + fixture.name + "'s " +
+                       (binding.dof == core::Dof::intensity ? "knob"
+                                                            : std::string(info(binding.dof).name)) +
+                       " to " + level_in_words(value);
+    case studio::HandKind::gel:
+      return change < kSameKelvin
+                 ? ""
+                 : "put a gel on " + fixture.name + " that makes it " + number(value, 0) + " K";
+    case studio::HandKind::flash_power:
+      return change < kSameLevel ? ""
+                                 : "set " + fixture.name + " to " + flash_power_in_words(value);
+    case studio::HandKind::stand:
+      return "";  // said once for the whole stand
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string number(double value, int decimals) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*f", decimals, value);
+  std::string result = text;
+  if (result.find('.') != std::string::npos) {
+    result.erase(result.find_last_not_of('0') + 1);
+    if (result.back() == '.') result.pop_back();
+  }
+  return result == "-0" ? "0" : result;
+}
+
+std::string stops_in_words(double stops) {
+  const int thirds = static_cast<int>(std::lround(std::abs(stops) * 3));
+  static constexpr const char* kThird[] = {"", "⅓", "⅔"};
+  std::string words = thirds / 3 > 0 || thirds == 0 ? std::to_string(thirds / 3) : "";
+  words += kThird[thirds % 3];
+  return words + (thirds > 0 && thirds <= 3 ? " stop" : " stops");
+}
+
+std::string level_in_words(double level) {
+  return level >= 0.995 ? "full" : number(100 * level, level < 0.1 ? 1 : 0) + " %";
+}
+
+std::string flash_power_in_words(double level) {
+  if (level <= 0) return "off";
+  const int thirds = std::max(0, static_cast<int>(std::lround(-3 * std::log2(level))));
+  if (thirds == 0) return "full power";
+  static constexpr const char* kBelow[] = {"", " - ⅓", " - ⅔"};
+  const std::string whole = thirds / 3 == 0 ? "1/1" : "1/" + std::to_string(1 << (thirds / 3));
+  return whole + kBelow[thirds % 3] + " power";
+}
+
+std::string place_in_words(const core::Spherical& place) {
+  const double azimuth = core::degrees(std::remainder(place.azimuth, 2 * core::kPi));
+  const double elevation = core::degrees(place.elevation);
+  std::string words;
+  if (std::abs(azimuth) < 0.5)
+    words = "at the camera's azimuth";
+  else if (std::abs(azimuth) > 179.5)
+    words = "straight behind";
+  else
+    words = number(std::abs(azimuth), 0) + "° camera " + (azimuth < 0 ? "left" : "right");
+  words += ", " + number(std::abs(elevation), 0) + "° " + (elevation < -0.5 ? "down" : "up");
+  return words + ", " + number(place.distance, 2) + " m";
+}
+
+std::vector<std::string> instructions(const studio::Studio& studio, const studio::Rig& now,
+                                      const studio::Rig& wanted) {
+  std::vector<std::string> result;
+  for (std::size_t i = 0; i < studio.fixtures.size(); ++i) {
+    const studio::Fixture& fixture = studio.fixtures[i];
+    const bool stand = std::holds_alternative<studio::StandMount>(fixture.mount);
+    const core::Spherical to = place_of(wanted.states[i]);
+    if (stand && !same_place(place_of(now.states[i]), to))
+      result.push_back("move " + fixture.name + " to " + place_in_words(to) + " from the face");
+    for (const studio::HandBinding& binding : fixture.by_hand) {
+      const std::string words = by_hand(fixture, binding, now.states[i], wanted.states[i]);
+      if (!words.empty()) result.push_back(words);
+    }
+  }
+  return result;
+}
+
+std::optional<double> key_fill_ratio(const studio::Studio& studio, const studio::Rig& rig) {
+  double key = 0, fill = 0;
+  const core::AimFrame frame = estimated_aim(studio);
+  for (std::size_t i = 0; i < studio.fixtures.size(); ++i) {
+    const studio::Fixture& fixture = studio.fixtures[i];
+    if (fixture.role != studio::Role::key && fixture.role != studio::Role::fill) continue;
+    const core::FixtureState& state = rig.states[i];
+    const core::AimFrame& aim = frame;
+    const double distance = core::distance(twin::pose(fixture, state, aim).position, aim.origin);
+    const double colour =
+        core::luminance(studio::light_colour(fixture, state, studio.exposure.white_balance));
+    const double lux = state.get(core::Dof::intensity) * colour * fixture.fitted_output().value /
+                       std::max(distance * distance, 1e-6);
+    (fixture.role == studio::Role::key ? key : fill) += lux;
+  }
+  // A fill a thousand times weaker than the key is dark to any meter.
+  if (key <= 0 || fill <= key * 1e-3) return std::nullopt;
+  return key / fill;
+}
+
+}  // namespace chiaro::design
