@@ -39,13 +39,24 @@ std::vector<File> lists() {
   return found;
 }
 
-/// What the folder's entries are called. What they share is in a file named after one of them in
-/// general: terms/term.cpp.
+/// The folder that a list names: beside it or around it, called as the list is.
+fs::path folder_of(const File& list) {
+  const auto path = root() / list.path;
+  if (path.parent_path().filename() == path.stem()) return path.parent_path();
+  return fs::path(path).replace_extension();
+}
+
+/// What the folder's entries are called. What they share is named after one of them in general:
+/// terms/term.cpp, lights/light_model.cpp.
 std::set<std::string> entries_in(const fs::path& folder) {
+  auto shared = folder.filename().string();
+  shared.pop_back();
   std::set<std::string> names;
-  for (const auto& at : fs::directory_iterator(folder))
-    if (at.path().extension() == ".cpp" && at.path().stem().string() + "s" != folder.filename())
-      names.insert(at.path().stem().string());
+  for (const auto& at : fs::directory_iterator(folder)) {
+    const auto stem = at.path().stem().string();
+    if (at.path().extension() == ".cpp" && stem != shared && !starts_with(stem, shared + "_"))
+      names.insert(stem);
+  }
   return names;
 }
 
@@ -73,7 +84,7 @@ TEST(Lists, EveryListHoldsEntriesAndNoneTwice) {
 TEST(Lists, EqualTheirFolders) {
   for (const auto& list : lists()) {
     if (list.path == "drivers/drivers.def") continue;  // folders, not files: the next test
-    const auto folder = root() / fs::path(list.path).replace_extension();
+    const auto folder = folder_of(list);
     ASSERT_TRUE(fs::is_directory(folder)) << list.path << " needs the folder " << folder;
     std::set<std::string> listed;
     for (const auto& entry : entries(list)) listed.insert(entry.name);
