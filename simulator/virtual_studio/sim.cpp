@@ -47,6 +47,7 @@ class VirtualStudio {
   void run_cameras();
   void serve(const CameraServer::Wish& wish, VirtualCamera& camera);
   void run_stagehand();
+  bool put_where_they_were(const std::string& state_json);
   bool carry_out(const Task& task);
   std::string status();
   bool stopping() const { return world_.stop || ending_; }
@@ -156,19 +157,30 @@ void VirtualStudio::serve(const CameraServer::Wish& wish, VirtualCamera& camera)
 void VirtualStudio::run_stagehand() {
   Stagehand hand(std::chrono::duration_cast<ports::Duration>(
       std::chrono::duration<double>(options_.stand_time_s)));
+  bool met = false;
   while (!stopping()) {
     drivers::HttpRequest request;
     request.url = options_.daemon + "/api/v1/state";
     // A daemon that is not there yet, or busy, is asked again: stagehands wait.
     const auto reply = drivers::http_request(request, 2s, &ending_);
-    const auto tasks = reply && reply->status == 200
-                           ? tasks_in(reply->body)
-                           : core::Result<std::vector<Task>>(std::vector<Task>{});
-    if (tasks)
-      if (const auto done = hand.work(*tasks, world_.clock.now())) carry_out(*done);
+    if (reply && reply->status == 200) {
+      if (!met) met = put_where_they_were(reply->body);
+      const auto tasks = tasks_in(reply->body);
+      const auto done = tasks ? hand.work(*tasks, world_.clock.now()) : std::nullopt;
+      if (done) carry_out(*done);
+    }
     for (auto slept = 0ms; slept < kLookAgain && !stopping(); slept += 20ms)
       std::this_thread::sleep_for(20ms);
   }
+}
+
+bool VirtualStudio::put_where_they_were(const std::string& state_json) {
+  const auto places = places_in(state_json);
+  if (!places) return false;
+  const std::lock_guard lock(mutex_);
+  for (const auto& place : *places)
+    if (const auto fixture = studio_.fixture_index(place.fixture)) stage_.put(*fixture, place.to);
+  return true;
 }
 
 bool VirtualStudio::carry_out(const Task& task) {

@@ -18,18 +18,29 @@ core::FixtureState placement_in(const Json& to) {
   return state;
 }
 
+/// One task per object in the list `list` that has a place under `place`.
+core::Result<std::vector<Task>> read(const std::string& state_json, const char* list,
+                                     const char* name, const char* place) {
+  const auto state = Json::parse(state_json, nullptr, false);
+  if (!state.is_object() || !state.contains(list) || !state[list].is_array())
+    return core::Problem{{}, "the daemon's state is not the JSON that it should be", ""};
+  std::vector<Task> tasks;
+  for (const auto& one : state[list]) {
+    const bool whole = one.is_object() && one.contains(name) && one[name].is_string() &&
+                       one.contains(place) && one[place].is_object();
+    if (whole) tasks.push_back({one[name].get<std::string>(), placement_in(one[place])});
+  }
+  return tasks;
+}
+
 }  // namespace
 
 core::Result<std::vector<Task>> tasks_in(const std::string& state_json) {
-  const auto state = Json::parse(state_json, nullptr, false);
-  if (!state.is_object() || !state.contains("instructions") || !state["instructions"].is_array())
-    return core::Problem{{}, "the daemon's state is not the JSON that it should be", ""};
-  std::vector<Task> tasks;
-  for (const auto& one : state["instructions"]) {
-    if (!one.is_object() || !one.contains("to") || !one["to"].is_object()) continue;
-    tasks.push_back({one.value("fixture", ""), placement_in(one["to"])});
-  }
-  return tasks;
+  return read(state_json, "instructions", "fixture", "to");
+}
+
+core::Result<std::vector<Task>> places_in(const std::string& state_json) {
+  return read(state_json, "fixtures", "name", "placed");
 }
 
 std::string placed_json(const core::FixtureState& to) {

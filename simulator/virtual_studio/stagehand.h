@@ -23,6 +23,9 @@ struct Task {
 };
 /// The instructions in the daemon's state (its JSON is documented in controller/panel/state.h).
 core::Result<std::vector<Task>> tasks_in(const std::string& state_json);
+/// Where the daemon believes each stand to be: a virtual studio that starts afterwards puts them
+/// there, as real stands would still stand there.
+core::Result<std::vector<Task>> places_in(const std::string& state_json);
 /// The body that answers an instruction.
 std::string placed_json(const core::FixtureState& to);
 

@@ -31,9 +31,20 @@ TEST(StagehandTasks, AreReadFromTheDaemonsState) {
   EXPECT_FALSE(tasks->front().to.has(Dof::intensity));
 }
 
+TEST(StagehandTasks, KnowWhereTheStandsWereLeft) {
+  const auto places = places_in(R"({"fixtures": [
+    {"name": "key", "placed": {"distance_m": 1.6}}, {"name": 3}, {"name": "wall", "placed": {}}]})");
+  ASSERT_TRUE(places);
+  ASSERT_EQ(places->size(), 2u);
+  EXPECT_EQ(places->front(), task("key", 1.6));
+  EXPECT_EQ(places->back().to, core::FixtureState());
+}
+
 TEST(StagehandTasks, NonsenseIsAProblem) {
-  for (const auto* text : {"", "[]", "{", "{}", R"({"instructions": 3})"})
+  for (const auto* text : {"", "[]", "{", "{}", R"({"instructions": 3})"}) {
     EXPECT_FALSE(tasks_in(text)) << text;
+    EXPECT_FALSE(places_in(text)) << text;
+  }
 }
 
 TEST(StagehandTasks, GoBackInTheSameUnits) {
