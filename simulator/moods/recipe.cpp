@@ -191,10 +191,11 @@ void read_tags(Section& top, Recipe& recipe, Report& report) {
 
 core::Result<Recipe> parse_recipe(const std::string& yaml, const std::string& file_name,
                                   const studio::Folders& folders) {
-  const auto tree = parse_tree(yaml, file_name);
-  if (!tree) return tree.problems();
+  const auto document = parse_tree(yaml, file_name);
+  if (!document) return document.problems();
   Report report(file_name);
-  Section top(*tree, "a recipe", report);
+  report.add(document->problems);
+  Section top(document->root, "a recipe", report);
   Recipe recipe;
   into(recipe.title, text(top.need("title", "Rembrandt"), report));
   into(recipe.sentence, text(top.need("sentence", "One sentence for people."), report));
