@@ -33,6 +33,17 @@ std::string quoted(const std::string& text) {
   return out + "\"";
 }
 
+/// A name without quotes where YAML takes it as text anyway.
+std::string named(const std::string& name) {
+  const auto plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+           c == '_';
+  };
+  const bool bare = std::all_of(name.begin(), name.end(), plain) && name.front() != '-' &&
+                    name != "null" && name != "Null" && name != "NULL";
+  return bare ? name : quoted(name);
+}
+
 std::string vector(core::Vec3 v) {
   return "[" + number(v.x) + ", " + number(v.y) + ", " + number(v.z) + "]";
 }
@@ -104,8 +115,8 @@ std::string hung(const Lamp& lamp, const Answers& a) {
 }
 
 std::string lamp_block(const Lamp& lamp, const Answers& a) {
-  return "  " + quoted(lamp.name) + ":\n    role: " + lamp.role + "\n    profile: " + lamp.profile +
-         "\n    mode: " + quoted(lamp.mode) + "\n" + (lamp.on_stand ? stand(lamp) : hung(lamp, a)) +
+  return "  " + named(lamp.name) + ":\n    role: " + lamp.role + "\n    profile: " + lamp.profile +
+         "\n    mode: " + named(lamp.mode) + "\n" + (lamp.on_stand ? stand(lamp) : hung(lamp, a)) +
          "    patch: {universe: " + std::to_string(lamp.universe) +
          ", address: " + std::to_string(lamp.address) + "}\n";
 }
@@ -115,11 +126,10 @@ std::string outputs(const Answers& a) {
   for (const Lamp& lamp : a.lamps) universes.insert(lamp.universe);
   std::string text = "outputs:\n";
   for (const int universe : universes)
-    text +=
-        "  universe " + std::to_string(universe) + ": " +
-        (a.interface.empty() ? "mock                # no wire yet: {sacn: {interface: eth0}}"
-                             : "{sacn: {interface: " + quoted(a.interface) + ", rate: 40 Hz}}") +
-        "\n";
+    text += "  universe " + std::to_string(universe) + ": " +
+            (a.interface.empty() ? "mock                # no wire yet: {sacn: {interface: eth0}}"
+                                 : "{sacn: {interface: " + named(a.interface) + ", rate: 40 Hz}}") +
+            "\n";
   return text;
 }
 

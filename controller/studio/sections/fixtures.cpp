@@ -76,17 +76,15 @@ Role read_role(const Tree* tree, Report& report) {
   return choice<Role>(tree, roles, report).value_or(Role::key);
 }
 
+bool patch_is_none(const Tree* patch) {
+  return patch == nullptr || patch->kind == Tree::Kind::scalar;
+}
+
 void check_can_be_set(const Tree::Key& key, const Fixture& fixture, Report& report) {
-  if (!fixture.controlled || !std::holds_alternative<NoPatch>(fixture.patch) ||
-      std::holds_alternative<VirtualMount>(fixture.mount))
-    return;
-  const bool by_hand =
-      std::any_of(fixture.by_hand.begin(), fixture.by_hand.end(),
-                  [](const HandBinding& binding) { return binding.kind != HandKind::stand; });
-  if (!by_hand)
-    report.error(key, "nothing can set the light of " + in_quotes(key.text),
-                 "add patch: {universe: 1, address: 1}, or by_hand: {intensity: knob}, or "
-                 "controlled: no for a lamp that stays as it is");
+  if (!fixture.controlled || std::holds_alternative<VirtualMount>(fixture.mount)) return;
+  report.error(key, "nothing can set the light of " + in_quotes(key.text),
+               "add patch: {universe: 1, address: 1}, or by_hand: {intensity: knob}, or "
+               "controlled: no for a lamp that stays as it is");
 }
 
 Fixture read_fixture(const Tree::Key& key, const Tree& tree, Context& context,
@@ -121,7 +119,9 @@ Fixture read_fixture(const Tree::Key& key, const Tree& tree, Context& context,
     fixture.by_hand = read_by_hand(by_hand, fixture, context);
     fixture.initial = first_colour(fixture, studio);
     fixture.initial = read_initial(initial, fixture, context);
-    if (section.valid()) check_can_be_set(key, fixture, report);
+    // A patch or binding that could not be read has been reported as such.
+    if (section.valid() && patch_is_none(patch) && by_hand == nullptr)
+      check_can_be_set(key, fixture, report);
   }
   section.refuse_unknown();
   return fixture;

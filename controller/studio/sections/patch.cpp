@@ -10,11 +10,10 @@ using namespace reading;
 namespace {
 
 Patch read_modbus(Section& section, const Tree& bus_tree, const Studio& studio, Context& context) {
-  ModbusPatch patch;
-  into(patch.bus, text(&bus_tree, context.report));
-  if (!patch.bus.empty()) bus_exists(bus_tree, patch.bus, studio, context);
-  into(patch.register_number, whole(section.need("register", "40"), 0, 65535, context.report));
-  return patch;
+  const auto bus = text(&bus_tree, context.report);
+  const auto number = whole(section.need("register", "40"), 0, 65535, context.report);
+  if (!bus || !bus_exists(bus_tree, *bus, studio, context) || !number) return NoPatch{};
+  return ModbusPatch{*bus, static_cast<std::uint16_t>(*number)};
 }
 
 }  // namespace
@@ -31,10 +30,11 @@ Patch read_patch(const Tree* tree, const Studio& studio, Context& context) {
   if (const Tree* bus = section.find("modbus")) {
     patch = read_modbus(section, *bus, studio, context);
   } else {
-    DmxPatch dmx;
-    into(dmx.universe, whole(section.need("universe", "1"), 1, 63999, context.report));
-    into(dmx.address, whole(section.need("address", "1"), 1, 512, context.report));
-    patch = dmx;
+    const auto universe = whole(section.need("universe", "1"), 1, 63999, context.report);
+    const auto address = whole(section.need("address", "1"), 1, 512, context.report);
+    // Half a patch is none: an invented address would overlap with innocent lamps.
+    if (universe && address)
+      patch = DmxPatch{static_cast<std::uint16_t>(*universe), static_cast<std::uint16_t>(*address)};
   }
   section.refuse_unknown();
   return patch;

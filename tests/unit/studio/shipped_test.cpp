@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A contract over the folders: whatever is shipped loads, without a word of complaint.
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <filesystem>
+#include <gtest/gtest.h>
 
 #include "controller/studio/load.h"
 
