@@ -46,7 +46,7 @@ TEST(MeasureCommand, PrintsEveryComponentAndTheSpectrumForPeople) {
 
 TEST(MeasureCommand, JsonHoldsTheNumbersOfAHalfBlackHalfWhitePicture) {
   Measured m;
-  m.run({m.picture({64, 64}, {0, 0, 0}, {255, 255, 255}), "--json"});
+  m.run({m.picture({256, 256}, {0, 0, 0}, {255, 255, 255}), "--json"});
   ASSERT_EQ(m.exit, ports::Exit::done);
   const auto json = nlohmann::json::parse(m.world.out.str());
   const auto& c = json["components"];
