@@ -105,7 +105,8 @@ std::string cookie(const std::string& header, std::string_view name) {
 bool names_this_machine(const std::string& host) {
   const std::string name =
       host.starts_with('[') ? host.substr(0, host.find(']') + 1) : host.substr(0, host.find(':'));
-  return name == "localhost" || name == "[::1]" || name.starts_with("127.");
+  const bool numbers = name.find_first_not_of("0123456789.") == std::string::npos;
+  return name == "localhost" || name == "[::1]" || (numbers && name.starts_with("127."));
 }
 
 std::optional<Refusal> foreign(const Request& request, const Access& access) {

@@ -16,7 +16,10 @@ double rounded(double value) {
 }
 
 Json json_of(const Refusal& refusal) {
-  return {{"what", refusal.what}, {"where", refusal.where}, {"remedy", refusal.remedy}};
+  Json json = {{"what", refusal.what}, {"where", refusal.where}, {"remedy", refusal.remedy}};
+  for (const core::Problem& problem : refusal.problems)
+    json["problems"].push_back(panel::json_of(problem));
+  return json;
 }
 
 Json json_of(const Instruction& instruction, bool with_fixture) {

@@ -69,7 +69,8 @@ namespace chiaro::panel {
 /// What the API answers when it refuses: the body of {"error": …} and its HTTP status.
 struct Refusal {
   int status = 400;
-  std::string what, where, remedy;
+  std::string what{}, where{}, remedy{};
+  core::Problems problems{};  ///< every one, where a whole file was refused
 };
 
 struct Instruction {

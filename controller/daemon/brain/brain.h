@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// The brain: knows the studio, the moods, the looks and what the hand does; carries out what an
+// operator asks. Thread-bound to the loop; the planner, the cameras and slow errands have threads
+// of their own and hand their results to the loop.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "controller/camera/watch.h"
+#include "controller/daemon/brain/console.h"
+#include "controller/daemon/brain/placements.h"
+#include "controller/daemon/brain/planner.h"
+#include "controller/daemon/hand_link.h"
+#include "controller/design/moods.h"
+#include "controller/panel/api.h"
+#include "controller/ports/world.h"
+#include "controller/store/store.h"
+#include "controller/studio/load.h"
+
+namespace chiaro::daemon {
+
+class Brain final : public panel::Brain {
+ public:
+  /// Reads studio, moods and store, takes the brain's end of the boxes, starts planner and
+  /// cameras. Problems: all of the studio file's, or another brain is running.
+  static core::Result<std::unique_ptr<Brain>> open(ports::World& world,
+                                                   const std::filesystem::path& studio_file,
+                                                   Post post);
+  ~Brain() override;
+
+  const panel::State& state() const override { return state_; }
+  const panel::Counters& counters() const override { return counters_; }
+  std::vector<panel::LookEntry> looks() const override;
+  std::variant<panel::PictureFile, panel::Refusal> picture(const panel::PictureOf& which) override;
+  void perform(const panel::Gesture& gesture, panel::Answer answer) override;
+
+  /// Hears the hand, speaks to it when due, answers who waits for it, renews the state. To be
+  /// called about every 20 ms.
+  void tick(ports::TimePoint now);
+  /// JSON messages for every listener since the last call.
+  std::vector<std::string> events();
+  /// Called on the loop with each new camera picture (JPEG).
+  void watch_cameras(
+      std::function<void(const std::string&, std::shared_ptr<const std::string>)> f) {
+    show_ = std::move(f);
+  }
+  void count_traffic(std::uint64_t requests, std::size_t listeners);
+
+ private:
+  struct Live {
+    store::LookRecord record;
+    design::Look look;
+  };
+  struct Job {
+    panel::JobView view;
+    panel::StartDesign ask;
+    std::shared_ptr<JobBoard> board;
+  };
+  struct WaitingForDark {
+    std::uint64_t id = 0;
+    bool on = true;
+    ports::TimePoint until;
+    panel::Answer answer;
+  };
+  struct Eye {
+    std::atomic<bool> stop{false};
+    std::shared_ptr<const std::string> jpeg;
+    std::unique_ptr<camera::Watch> watch;
+  };
+
+  Brain(ports::World& world, Post post) : world_(world), post_(post), planner_(world.clock, post) {}
+  core::Result<core::Done> start(const std::filesystem::path& studio_file);
+  core::Result<core::Done> take_studio(studio::Loaded loaded);
+  void prepare_twin();
+  void open_cameras();
+  void remember_live();
+
+  // One for each gesture.
+  void carry_out(const panel::StartDesign& ask, const panel::Answer& answer);
+  void carry_out(const panel::CancelDesign& cancel, const panel::Answer& answer);
+  void carry_out(const panel::SaveLook& save, const panel::Answer& answer);
+  void carry_out(const panel::ApplyLook& apply, const panel::Answer& answer);
+  void carry_out(const panel::DeleteLook& remove, const panel::Answer& answer);
+  void carry_out(const panel::Undo& undo, const panel::Answer& answer);
+  void carry_out(const panel::SetFixture& set, const panel::Answer& answer);
+  void carry_out(const panel::SetMaster& set, const panel::Answer& answer);
+  void carry_out(const panel::Placed& placed, const panel::Answer& answer);
+  void carry_out(const panel::Reload& reload, const panel::Answer& answer);
+  void carry_out(const panel::MotionStop& stop, const panel::Answer& answer);
+  void carry_out(const panel::Blackout& blackout, const panel::Answer& answer);
+  void carry_out(const panel::AddMood& mood, const panel::Answer& answer);
+  void carry_out(const panel::RemoveMood& mood, const panel::Answer& answer);
+
+  // Jobs and looks.
+  core::Result<design::Goal> goal_of(const panel::StartDesign& ask) const;
+  DesignTask task_of(const panel::StartDesign& ask, design::Goal goal) const;
+  void cancel_running();
+  void finished(std::uint64_t job, core::Result<Designed> result);
+  void keep(const panel::StartDesign& ask, Designed designed);
+  std::optional<Live> load(std::int64_t look, panel::Refusal& refusal) const;
+  /// Applies now, or first solves the levels for where the lamps stand by now.
+  void go_live(Live live, double fade_s, bool remember_last);
+  void solve_again(double fade_s);
+  void solved_again(std::int64_t look, double fade_s, core::Result<Designed> result);
+
+  // The state.
+  void changed() { dirty_ = true; }
+  void renew_state();
+  panel::FixtureView view_of(std::size_t fixture) const;
+  std::optional<panel::LookView> live_view() const;
+  void hear(ports::TimePoint now);
+  void speak(ports::TimePoint now);
+  void answer_waiting(ports::TimePoint now);
+  void tell_progress();
+
+  ports::World& world_;
+  Post post_;
+  std::unique_ptr<store::Store> store_;
+  studio::Studio studio_;
+  core::Problems warnings_;
+  design::Moods moods_;
+  std::optional<Placements> placements_;
+  std::optional<Console> console_;
+  std::unique_ptr<HandLink> link_;
+  std::optional<rig::Sent> sent_;
+  bool hand_alive_ = false, adopted_ = false, spoken_ = false, ready_ = false;
+  ports::TimePoint started_, last_word_, last_renewal_, last_counters_;
+  core::Problems twin_problems_;
+  std::vector<std::string> notes_;  ///< what went wrong lately, for people
+
+  std::optional<Live> live_;
+  std::vector<std::int64_t> history_;  ///< looks that were live before, newest last
+  std::optional<Job> job_;
+  std::uint64_t jobs_ = 0, studio_turn_ = 0;
+  std::shared_ptr<JobBoard> again_;  ///< of the solve-again that is under way
+  std::map<std::string, std::shared_ptr<Eye>> eyes_;
+  std::function<void(const std::string&, std::shared_ptr<const std::string>)> show_;
+  std::vector<WaitingForDark> waiting_;
+
+  panel::State state_;
+  panel::Counters counters_;
+  std::string told_;  ///< the last state told, without counters
+  std::deque<std::string> events_;
+  bool dirty_ = true;
+  std::shared_ptr<bool> here_ = std::make_shared<bool>(true);
+  Worker errands_;   // slow talks with the hand
+  Planner planner_;  // last: its thread uses what is above through the loop only
+};
+
+}  // namespace chiaro::daemon

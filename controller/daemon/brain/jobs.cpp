@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+// Design jobs, and how a look becomes the live one.
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "controller/core/picture_file.h"
+#include "controller/daemon/brain/asked.h"
+#include "controller/daemon/brain/brain.h"
+
+namespace chiaro::daemon {
+namespace {
+
+/// Looks that nobody named are kept for undo and for looking back, up to this many.
+constexpr std::size_t kMostNameless = 50;
+constexpr std::size_t kMostHistory = 20;
+constexpr double kSolveAgainFade = 1.0;
+
+panel::Refusal refusal_of(const core::Problems& problems) {
+  const core::Problem first = problems.empty() ? core::Problem{{}, "it failed", ""} : problems[0];
+  return {422, first.what, first.where.file.empty() ? "" : core::to_string(first.where),
+          first.remedy, problems};
+}
+
+core::Result<design::Goal> goal_of_picture(const std::string& bytes, const std::string& name,
+                                           design::Objective objective) {
+  auto picture = core::decode_picture(
+      {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, name);
+  if (!picture) return picture.problems();
+  design::ExampleGoal goal;
+  goal.name = name;
+  goal.exemplar = core::linear(*picture);
+  goal.objective = objective;
+  return design::Goal(std::move(goal));
+}
+
+}  // namespace
+
+core::Result<design::Goal> Brain::goal_of(const panel::StartDesign& ask) const {
+  if (ask.ideal) return design::Goal(design::IdealGoal{});
+  const auto objective = ask.wavelet ? design::Objective::wavelet : design::Objective::perceptual;
+  if (!ask.picture.empty()) return goal_of_picture(ask.picture, ask.title, objective);
+  for (const design::Mood& mood : moods_.moods) {
+    if (mood.name != ask.mood) continue;
+    auto goal = design::goal_of(mood, objective);
+    if (!goal) return goal.problems();
+    return design::Goal(std::move(*goal));
+  }
+  if (const auto own = store_->mood(ask.mood))
+    return goal_of_picture(own->picture, own->title, objective);
+  return core::Problem{{}, "the mood '" + ask.mood + "' is gone", "choose another"};
+}
+
+DesignTask Brain::task_of(const panel::StartDesign& ask, design::Goal goal) const {
+  DesignTask task{
+      placements_->placed_studio(studio_), std::move(goal), {}, std::make_shared<JobBoard>()};
+  task.options.seed = ask.seed;
+  task.options.trials = ask.trials;
+  task.options.budget_s = ask.budget_s;
+  task.options.move_stands = ask.move_stands;
+  task.options.locked = ask.lock;
+  for (std::size_t i = 0; i < studio_.fixtures.size(); ++i) {
+    const std::string& name = studio_.fixtures[i].name;
+    if (placements_->locked(i) &&
+        std::find(ask.lock.begin(), ask.lock.end(), name) == ask.lock.end())
+      task.options.locked.push_back(name);
+  }
+  // A locked lamp keeps the light that it gives now.
+  for (const std::string& name : task.options.locked)
+    if (const auto i = studio_.fixture_index(name); i && sent_ && *i < sent_->fixtures.size())
+      task.studio.fixtures[*i].initial.overlay(sent_->fixtures[*i]);
+  return task;
+}
+
+void Brain::cancel_running() {
+  if (!job_ || job_->view.status > panel::JobStatus::running) return;
+  job_->board->stop = true;
+  job_->view.status = panel::JobStatus::cancelled;
+  ++counters_.designs_cancelled;
+  events_.push_back(R"({"type":"design","design":)" + panel::job_to_json(job_->view) + "}");
+  changed();
+}
+
+void Brain::carry_out(const panel::StartDesign& ask, const panel::Answer& answer) {
+  if (ready_ && any_error(twin_problems_)) return answer({refusal_of(twin_problems_)});
+  auto goal = goal_of(ask);
+  if (!goal) return answer({refusal_of(goal.problems())});
+  cancel_running();  // the newest click wins
+  DesignTask task = task_of(ask, std::move(*goal));
+  Job job{{}, ask, task.board};
+  job.view.job = ++jobs_;
+  job.view.mood = ask.mood;
+  job.view.title = ask.title;
+  job_ = job;
+  planner_.add(std::move(task),
+               [this, here = here_, id = job.view.job](core::Result<Designed> result) {
+                 if (*here) finished(id, std::move(result));
+               });
+  changed();
+  answer({{}, 202, fmt::format(R"({{"job":{}}})", job.view.job)});
+}
+
+void Brain::carry_out(const panel::CancelDesign& cancel, const panel::Answer& answer) {
+  if (!job_ || job_->view.job != cancel.job || job_->view.status > panel::JobStatus::running)
+    return answer({panel::Refusal{404, fmt::format("job {} is not running", cancel.job), "job",
+                                  "it has ended, or never was"}});
+  cancel_running();
+  answer({});
+}
+
+void Brain::finished(std::uint64_t id, core::Result<Designed> result) {
+  if (!job_ || job_->view.job != id || job_->view.status == panel::JobStatus::cancelled) return;
+  panel::JobView& view = job_->view;
+  const JobBoard::Seen seen = job_->board->seen();
+  view.stage = "";
+  if (result) {
+    view.trial = view.trials = result->look.trials;
+    view.best = result->look.cost;
+    view.seconds = result->look.seconds;
+    counters_.trials += result->look.trials;
+    counters_.design_seconds += result->look.seconds;
+    keep(job_->ask, std::move(*result));
+  } else {
+    view.status = panel::JobStatus::failed;
+    view.error = refusal_of(result.problems());
+    view.seconds = seen.seconds;
+  }
+  ++(view.status == panel::JobStatus::done ? counters_.designs_done : counters_.designs_failed);
+  events_.push_back(R"({"type":"design","design":)" + panel::job_to_json(view) + "}");
+  changed();
+}
+
+void Brain::keep(const panel::StartDesign& ask, Designed designed) {
+  Live live;
+  live.look = std::move(designed.look);
+  store::LookRecord& record = live.record;
+  record.name = ask.title;
+  record.mood = ask.mood;
+  record.verdict = design::name_of(live.look.judgement.verdict);
+  record.request = asked_to_json(ask);
+  record.json = std::move(designed.json);
+  record.picture = std::move(designed.picture_png);
+  record.placed_picture = std::move(designed.placed_png);
+  record.reference = ask.picture;
+  const auto id = store_->save_look(record);
+  if (!id) {
+    job_->view.status = panel::JobStatus::failed;
+    job_->view.error = refusal_of(id.problems());
+    return;
+  }
+  record.id = *id;
+  job_->view.look = *id;
+  job_->view.status = panel::JobStatus::done;
+  store_->note("look " + std::to_string(*id) + ": " + record.name + ", " + record.verdict);
+  if (ask.apply_fade_s) go_live(std::move(live), *ask.apply_fade_s, true);
+  store_->prune_looks(kMostNameless, live_ ? live_->record.id : *id);
+}
+
+std::optional<Brain::Live> Brain::load(std::int64_t id, panel::Refusal& refusal) const {
+  auto record = store_->look(id);
+  if (!record) {
+    refusal = {404, fmt::format("there is no look {}", id), "look", "see GET /api/v1/looks"};
+    return std::nullopt;
+  }
+  auto look = design::look_from_json(studio_, record->json, record->name);
+  if (!look) {
+    refusal = refusal_of(look.problems());
+    return std::nullopt;
+  }
+  return Live{std::move(*record), std::move(*look)};
+}
+
+void Brain::go_live(Live live, double fade_s, bool remember_last) {
+  if (again_) again_->stop = true;
+  if (remember_last && live_ && live_->record.id != live.record.id) {
+    history_.push_back(live_->record.id);
+    if (history_.size() > kMostHistory) history_.erase(history_.begin());
+  }
+  live_ = std::move(live);
+  remember_live();
+  changed();
+  bool stands = true;
+  for (std::size_t i = 0; i < studio_.fixtures.size(); ++i)
+    stands = stands && stands_there(live_->look.placed.states[i], placements_->at(i));
+  if (!stands) return solve_again(fade_s);
+  console_->apply(studio_, live_->look.placed, fade_s, world_.clock.now());
+}
+
+void Brain::solve_again(double fade_s) {
+  if (!live_) return;
+  panel::StartDesign ask = asked_from_json(live_->record.request, live_->record.reference);
+  ask.move_stands = false;
+  auto goal = can_be_solved(ask) ? goal_of(ask) : core::Problem{{}, "", ""};
+  if (!goal) {
+    // A look that came as a file has no goal to solve for: its levels are all there is.
+    console_->apply(studio_, live_->look.placed, fade_s, world_.clock.now());
+    return;
+  }
+  if (again_) again_->stop = true;
+  DesignTask task = task_of(ask, std::move(*goal));
+  again_ = task.board;
+  planner_.add(std::move(task), [this, here = here_, board = again_, id = live_->record.id,
+                                 fade_s](core::Result<Designed> result) {
+    if (*here && !board->stop) solved_again(id, fade_s, std::move(result));
+  });
+}
+
+void Brain::solved_again(std::int64_t id, double fade_s, core::Result<Designed> result) {
+  again_.reset();
+  if (!live_ || live_->record.id != id) return;
+  changed();
+  if (!result) {
+    notes_.push_back("the levels could not be solved again: " + result.problems().front().what);
+    return;
+  }
+  design::Look& look = live_->look;
+  look.placed = result->look.placed;
+  look.placed_judgement = result->look.placed_judgement;
+  look.placed_picture = std::move(result->look.placed_picture);
+  store::LookRecord& record = live_->record;
+  record.json = design::look_to_json(studio_, look);
+  record.placed_picture = std::move(result->placed_png);
+  if (auto kept = store_->update_look(record); !kept)
+    notes_.push_back(core::to_string(kept.problems()));
+  console_->apply(studio_, look.placed, fade_s, world_.clock.now());
+}
+
+void Brain::carry_out(const panel::Placed& placed, const panel::Answer& answer) {
+  const auto index = studio_.fixture_index(placed.fixture);
+  if (!index) return answer({panel::Refusal{404, "no such fixture", placed.fixture, ""}});
+  core::FixtureState to = placed.at;
+  if (to.present() == 0) {  // "exactly as wanted"
+    const panel::FixtureView view = view_of(*index);
+    if (!view.instruction)
+      return answer({panel::Refusal{409, "'" + placed.fixture + "' need not be moved", "fixture",
+                                    "say where it stands: {\"azimuth_deg\": …}"}});
+    to = view.instruction->to;
+  }
+  placements_->move(*index, to);
+  if (auto kept = store_->set("placed:" + studio_.name, placements_->to_json(studio_)); !kept)
+    return answer({refusal_of(kept.problems())});
+  store_->note(placed.fixture + " has been moved");
+  solve_again(kSolveAgainFade);
+  changed();
+  answer({});
+}
+
+}  // namespace chiaro::daemon

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "controller/daemon/brain/planner.h"
+
+#include "controller/core/picture_file.h"
+
+namespace chiaro::daemon {
+namespace {
+
+std::string png_of(const core::Picture& picture) {
+  if (picture.red.empty()) return "";
+  const auto bytes = core::encode_png(core::encoded(picture));
+  return {bytes.begin(), bytes.end()};
+}
+
+core::Result<Designed> packed(const studio::Studio& studio, design::Look look) {
+  std::string json = design::look_to_json(studio, look);
+  std::string picture = png_of(look.picture), placed = png_of(look.placed_picture);
+  if (placed.empty()) placed = picture;
+  return Designed{std::move(look), std::move(json), std::move(picture), std::move(placed)};
+}
+
+/// A fault in one job must not take the daemon down with it.
+template <class Work>
+auto guarded(Work work) -> decltype(work()) {
+  try {
+    return work();
+  } catch (const std::exception& fault) {
+    return core::Problem{{},
+                         std::string("the planner failed: ") + fault.what(),
+                         "this is a fault of Chiaro: please report it with the studio file"};
+  }
+}
+
+}  // namespace
+
+void JobBoard::tell(const design::Progress& progress, double seconds) {
+  const std::lock_guard lock(mutex_);
+  seen_ = {progress, seconds};
+}
+
+JobBoard::Seen JobBoard::seen() const {
+  const std::lock_guard lock(mutex_);
+  return seen_;
+}
+
+void Planner::prepare(const studio::Studio& studio, const std::filesystem::path& mesh_cache,
+                      std::function<void(core::Problems)> ready) {
+  worker_.add([this, studio, mesh_cache, ready = std::move(ready)] {
+    daemon::be_modest(modest_);
+    design::GeometricOptions options;
+    options.mesh_cache = mesh_cache;
+    options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    auto made = guarded([&]() -> core::Result<std::unique_ptr<design::LayersSource>> {
+      auto layers = design::geometric_layers(studio, options);
+      if (!layers) return layers;
+      const design::Options sizes;
+      (*layers)->at(sizes.search_size);
+      (*layers)->at(sizes.full_size);
+      return layers;
+    });
+    no_layers_ = made.problems();
+    layers_ = made ? std::move(*made) : nullptr;
+    post_([ready, problems = no_layers_] { ready(problems); });
+  });
+}
+
+core::Result<Designed> Planner::solve(DesignTask& task) const {
+  if (task.board->stop) return core::Problem{{}, "cancelled", ""};
+  if (!layers_) return no_layers_;
+  const ports::TimePoint start = clock_.now();
+  const auto seconds = [this, start] {
+    return std::chrono::duration<double>(clock_.now() - start).count();
+  };
+  task.options.stop = &task.board->stop;
+  task.options.seconds = seconds;
+  task.options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  task.options.progress = [&](const design::Progress& progress) {
+    task.board->tell(progress, seconds());
+  };
+  task.board->started = true;
+  auto look = design::design(task.studio, *layers_, task.goal, task.options);
+  if (!look) return look.problems();
+  return packed(task.studio, std::move(*look));
+}
+
+void Planner::add(DesignTask task, std::function<void(core::Result<Designed>)> done) {
+  const auto kept = std::make_shared<DesignTask>(std::move(task));
+  worker_.add([this, kept, done = std::move(done)] {
+    daemon::be_modest(modest_);
+    const auto result = std::make_shared<core::Result<Designed>>(
+        guarded([&]() -> core::Result<Designed> { return solve(*kept); }));
+    post_([done, result] { done(std::move(*result)); });
+  });
+}
+
+}  // namespace chiaro::daemon

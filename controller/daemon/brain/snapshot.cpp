@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// The state as the panel shows it, made anew from what the brain knows.
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "controller/core/hash.h"
+#include "controller/daemon/brain/brain.h"
+#include "controller/daemon/brain/words.h"
+#include "controller/design/design.h"
+#include "controller/ports/output.h"
+
+namespace chiaro::daemon {
+namespace {
+
+core::FixtureState placement_of(const core::FixtureState& state) {
+  core::FixtureState place;
+  for (const core::DofInfo& dof : core::dofs())
+    if (core::is_placement(dof.dof) && state.has(dof.dof)) place.set(dof.dof, state.get(dof.dof));
+  return place;
+}
+
+core::FixtureState light_of(const core::FixtureState& state) {
+  core::FixtureState light;
+  for (const core::DofInfo& dof : core::dofs())
+    if (!core::is_placement(dof.dof) && state.has(dof.dof)) light.set(dof.dof, state.get(dof.dof));
+  return light;
+}
+
+/// What lamps are being told: by the hand's report, else what they start with.
+core::FixtureState sent_of(const std::optional<rig::Sent>& sent, const studio::Fixture& fixture,
+                           std::size_t index) {
+  if (sent && index < sent->fixtures.size()) return sent->fixtures[index];
+  return fixture.initial;
+}
+
+std::string health_of(const camera::Report& report) {
+  switch (report.health) {
+    case camera::Health::waiting:
+      return "waiting";
+    case camera::Health::good:
+      return "good";
+    case camera::Health::lost:
+      return "lost";
+  }
+  return "";
+}
+
+panel::OutputView view_of_port(const rig::Sent::Port& port) {
+  static constexpr const char* kHealth[] = {"closed", "good", "lost"};
+  return {port.universe,      kHealth[std::min<std::size_t>(port.health, 2)],
+          port.rate_hz,       port.frames,
+          port.late,          port.failed,
+          port.jitter_us_p50, port.jitter_us_p99};
+}
+
+/// A lamp that gives nothing need not be moved.
+constexpr double kWorthMoving = 0.002;
+
+}  // namespace
+
+panel::FixtureView Brain::view_of(std::size_t index) const {
+  const studio::Fixture& fixture = studio_.fixtures[index];
+  panel::FixtureView view;
+  view.name = fixture.name;
+  view.role = studio::name_of(fixture.role);
+  view.mount = mount_name(fixture.mount);
+  view.placed = placements_->at(index);
+  view.sent = light_of(sent_of(sent_, fixture, index));
+  view.words = design::place_in_words(place_of(studio_, fixture, view.placed));
+  view.level = level_in_words(view.sent.get(core::Dof::intensity));
+  if (view.sent.get(core::Dof::intensity) > 0) view.colour = colour_in_words(fixture, view.sent);
+  view.manual = console_->held(index);
+  view.limits = fixture.ranges();
+  view.locked = placements_->locked(index);
+  view.controlled = fixture.controlled;
+  for (const core::DofInfo& dof : core::dofs())
+    if (set_by_hand(fixture, dof.dof)) view.by_hand.push_back(dof.dof);
+  if (!live_ || index >= live_->look.wanted.states.size()) return view;
+  const core::FixtureState& aim = live_->look.wanted.states[index];
+  view.wanted = light_of(live_->look.placed.states[index]);
+  view.wanted.overlay(placement_of(aim));
+  const bool stand = std::holds_alternative<studio::StandMount>(fixture.mount);
+  if (!stand || view.locked || aim.get(core::Dof::intensity, 1) < kWorthMoving ||
+      stands_there(aim, view.placed))
+    return view;
+  const core::FixtureState to = placement_of(aim);
+  view.instruction =
+      panel::Instruction{fixture.name,
+                         fmt::format("move {} to {}", fixture.name,
+                                     design::place_in_words(place_of(studio_, fixture, to))),
+                         to};
+  return view;
+}
+
+std::optional<panel::LookView> Brain::live_view() const {
+  if (!live_) return std::nullopt;
+  const design::Look& look = live_->look;
+  panel::LookView view;
+  view.id = live_->record.id;
+  view.name = live_->record.name;
+  view.mood = live_->record.mood;
+  view.verdict = design::name_of(look.judgement.verdict);
+  view.verdict_when_placed = design::name_of(look.placed_judgement.verdict);
+  view.remedy = look.placed_judgement.remedy;
+  if (const auto ratio = design::key_fill_ratio(placements_->placed_studio(studio_), look.placed))
+    view.ratio = ratio_in_words(*ratio);
+  if (sent_) view.fade = sent_->fade_progress[static_cast<std::size_t>(rig::Source::look)];
+  if (!live_->record.reference.empty())
+    view.reference = fmt::format("/api/v1/looks/{}/reference", view.id);
+  else if (!view.mood.empty())
+    view.reference = "/api/v1/moods/" + view.mood + "/picture";
+  view.trials = look.trials;
+  view.seconds = look.seconds;
+  return view;
+}
+
+void Brain::renew_state() {
+  dirty_ = false;
+  panel::State& s = state_;
+  s.studio = studio_.name;
+  s.file = studio_.file;
+  s.fingerprint = core::hex(studio_.fingerprint);
+  s.ready = ready_;
+  s.stage = ready_ ? "" : "preparing the preview of the subject";
+  s.hand_connected = hand_alive_;
+  s.hand_refused = sent_ && sent_->refused;
+  s.real_time = sent_ && sent_->real_time;
+  s.caution = sent_ ? rig::name_of(sent_->caution) : "normal";
+  s.blackout = hand_alive_ && sent_ ? sent_->blackout : console_->wanted().blackout;
+  s.masters = console_->wanted().masters;
+  s.look = live_view();
+  s.design = job_ ? std::optional(job_->view) : std::nullopt;
+  s.fixtures.clear();
+  for (std::size_t i = 0; i < studio_.fixtures.size(); ++i) s.fixtures.push_back(view_of(i));
+  s.outputs.clear();
+  if (hand_alive_ && sent_)
+    for (const rig::Sent::Port& port : sent_->ports) s.outputs.push_back(view_of_port(port));
+  s.problems = warnings_;
+  s.problems.insert(s.problems.end(), moods_.problems.begin(), moods_.problems.end());
+  s.problems.insert(s.problems.end(), twin_problems_.begin(), twin_problems_.end());
+  for (const std::string& note : notes_) s.problems.push_back({{}, note, "", false});
+  s.cameras.clear();
+  for (const studio::Camera& camera : studio_.cameras) {
+    const auto eye = eyes_.find(camera.name);
+    if (eye == eyes_.end() || !eye->second->watch) {
+      s.cameras.push_back({camera.name, "none", 0, 0});
+      continue;
+    }
+    const camera::Report report = eye->second->watch->report();
+    s.cameras.push_back({camera.name, health_of(report), report.frames, report.reconnects});
+    s.problems.insert(s.problems.end(), report.trouble.begin(), report.trouble.end());
+  }
+  if (!hand_alive_ && spoken_)
+    s.problems.push_back({{},
+                          "the output process does not answer" +
+                              (link_->silence().empty() ? "" : ": " + link_->silence()),
+                          "start chiaro-output with the same studio file",
+                          false});
+  s.moods.clear();
+  for (const design::Mood& mood : moods_.moods)
+    s.moods.push_back({mood.name, mood.title, mood.sentence, mood.tags, mood.attainable, false});
+  for (const store::MoodRecord& mood : store_->moods())
+    s.moods.push_back({mood.name, mood.title, "Your own picture", {}, true, true});
+  s.can_undo = !history_.empty();
+}
+
+}  // namespace chiaro::daemon

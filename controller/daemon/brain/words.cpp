@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "controller/daemon/brain/words.h"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace chiaro::daemon {
+
+std::string level_in_words(double intensity) {
+  if (intensity <= 0) return "off";
+  if (intensity >= 0.995) return "full";
+  const double stops = -core::to_stops(intensity);
+  const std::string percent = intensity < 0.095 ? fmt::format("{:.1f} %", 100 * intensity)
+                                                : fmt::format("{:.0f} %", 100 * intensity);
+  return fmt::format("{}, {:.1f} {} below full", percent, stops,
+                     std::fabs(stops - 1) < 0.05 ? "stop" : "stops");
+}
+
+std::string colour_in_words(const studio::Fixture& fixture, const core::FixtureState& state) {
+  using Kind = studio::Emitter::Kind;
+  if (fixture.profile.emitter.kind == Kind::bicolour && state.has(core::Dof::cct)) {
+    std::string words = fmt::format("{:.0f} K", std::round(state.get(core::Dof::cct) / 10) * 10);
+    const double tint = state.get(core::Dof::tint);
+    if (std::fabs(tint) >= 0.5)
+      words += fmt::format(", {:.0f} towards {}", std::fabs(tint), tint > 0 ? "green" : "magenta");
+    return words;
+  }
+  std::string words;
+  if (fixture.profile.emitter.kind != Kind::mixed) return words;
+  for (const studio::Primary& primary : fixture.profile.emitter.primaries) {
+    const double drive = state.get(primary.dof);
+    if (drive < 0.005) continue;
+    std::string name(core::info(primary.dof).name);
+    if (const auto line = name.find('_'); line != std::string::npos) name[line] = ' ';
+    words += fmt::format("{}{} {:.0f} %", words.empty() ? "" : ", ", name, 100 * drive);
+  }
+  return words;
+}
+
+std::string ratio_in_words(double ratio) {
+  const double shown = ratio < 10 ? std::round(10 * ratio) / 10 : std::round(ratio);
+  return fmt::format("{:g}:1", shown);
+}
+
+std::string_view mount_name(const studio::Mount& mount) {
+  static constexpr std::string_view kNames[] = {"fixed", "stand",    "arc",
+                                                "track", "pan_tilt", "virtual"};
+  return kNames[mount.index()];
+}
+
+core::Spherical place_of(const studio::Studio& studio, const studio::Fixture& fixture,
+                         const core::FixtureState& placed) {
+  if (placed.has(core::Dof::azimuth))
+    return {placed.get(core::Dof::azimuth), placed.get(core::Dof::elevation),
+            placed.get(core::Dof::distance, 1)};
+  core::Vec3 at, aim;
+  if (const auto* fixed = std::get_if<studio::FixedMount>(&fixture.mount))
+    at = fixed->at, aim = fixed->aim_at;
+  else if (const auto* head = std::get_if<studio::PanTiltMount>(&fixture.mount))
+    at = head->at, aim = head->aim_at;
+  else if (const auto* arc = std::get_if<studio::ArcMount>(&fixture.mount))
+    at = arc->centre, aim = studio.main_camera().look_at;
+  else if (const auto* track = std::get_if<studio::TrackMount>(&fixture.mount))
+    at = track->from + track->at * (track->to - track->from), aim = studio.main_camera().look_at;
+  return core::spherical(core::aim_frame(aim, studio.main_camera().at), at);
+}
+
+}  // namespace chiaro::daemon
