@@ -79,12 +79,12 @@ HWY_INLINE void shade_single(const Samples& samples, std::size_t tile, const Arr
 
 /// Unit direction to a small source and its inverse distance.
 HWY_INLINE V towards(Vec source, Vec at, Vec& l) {
-  constexpr float kLeast = static_cast<float>(twin::kNearestLight * twin::kNearestLight);
+  constexpr float kMost = static_cast<float>(1 / twin::kNearestLight);
   const Vec to = minus(source, at);
   const V square = dot(to, to);
   const V inverse = inverse_root(hn::Max(square, set(1e-12f)));
   l = {hn::Mul(to.x, inverse), hn::Mul(to.y, inverse), hn::Mul(to.z, inverse)};
-  return hn::Min(inverse, inverse_root(set(kLeast)));
+  return hn::Min(inverse, set(kMost));
 }
 
 HWY_INLINE void shade_point(const Samples& s, const twin::Light& light, std::size_t tile,
@@ -135,39 +135,56 @@ HWY_INLINE void shade_directional(const Samples& s, const twin::Light& light, st
       irradiance, glossy);
 }
 
-/// Highlight of a flat face: the same few points as twin::face_specular.
-HWY_INLINE V face_lobe(const Group& group, const twin::Light& light,
-                       std::span<const twin::FacePoint> points, double half_right, double half_up) {
+/// The points of a flat face that stand for it in highlights (twin::face_points), ready for use.
+struct FacePoints {
+  float x[9], y[9], z[9], candela[9];
+  std::size_t count;
+
+  FacePoints(const twin::Light& light, std::span<const twin::FacePoint> points, double half_right,
+             double half_up)
+      : count(points.size()) {
+    for (std::size_t k = 0; k < count; ++k) {
+      const core::Vec3 at = light.position + points[k].x * half_right * light.right +
+                            points[k].y * half_up * light.up;
+      x[k] = static_cast<float>(at.x), y[k] = static_cast<float>(at.y);
+      z[k] = static_cast<float>(at.z);
+      candela[k] = static_cast<float>(points[k].weight * light.candela);
+    }
+  }
+};
+
+HWY_INLINE V face_lobe(const Group& group, const FacePoints& points, Vec axis,
+                       studio::Optic::Attenuation law) {
   const Vec at = group.position(), n = group.normal(), v = group.viewer();
   const V nv = dot(n, v), half_shininess = hn::Mul(set(0.5f), group.load(Samples::shininess));
-  const Vec axis = broadcast(light.direction);
   V sum = zero();
-  for (const twin::FacePoint& point : points) {
-    const Vec source = broadcast(light.position + point.x * half_right * light.right +
-                                 point.y * half_up * light.up);
+  for (std::size_t k = 0; k < points.count; ++k) {
     Vec l;
-    const V inverse = towards(source, at, l);
+    const V inverse = towards({set(points.x[k]), set(points.y[k]), set(points.z[k])}, at, l);
     const V leaving = hn::Max(hn::Neg(dot(axis, l)), zero());
-    const V lux = hn::Mul(hn::Mul(set(static_cast<float>(point.weight)), leaving),
-                          faded(light.attenuation, inverse));
+    const V lux = hn::Mul(hn::Mul(set(points.candela[k]), leaving), faded(law, inverse));
     sum = hn::MulAdd(lux, highlight(dot(n, l), nv, dot(l, v), half_shininess), sum);
   }
-  return hn::Mul(sum, set(static_cast<float>(light.candela)));
+  return sum;
 }
 
-template <class Points>
-HWY_INLINE void gloss_of_face(const Group& group, const twin::Light& light, const Points& points,
-                              double half_right, double half_up, float* out) {
-  const V weight = group.load(Samples::specular);
-  V lobe = zero();
-  if (!hn::AllFalse(D(), hn::Gt(weight, zero()))) {
-    const M few = hn::Le(group.load(Samples::shininess),
-                         set(static_cast<float>(twin::kFewPointsUpTo)));
-    if (!hn::AllFalse(D(), few)) lobe = face_lobe(group, light, points(1.0), half_right, half_up);
-    if (!hn::AllTrue(D(), few))
-      lobe = hn::IfThenElse(few, lobe, face_lobe(group, light, points(1e3), half_right, half_up));
+/// A tile's highlights of a flat face.
+HWY_INLINE void gloss_of_face(const Samples& samples, std::size_t tile, const twin::Light& light,
+                              const FacePoints& few, const FacePoints& many, float* out) {
+  const Vec axis = broadcast(light.direction);
+  for (std::size_t i = 0; i < kTile; i += lanes()) {
+    const Group group{samples, tile * kTile + i};
+    const V weight = group.load(Samples::specular);
+    V lobe = zero();
+    if (!hn::AllFalse(D(), hn::Gt(weight, zero()))) {
+      const M broad = hn::Le(group.load(Samples::shininess),
+                             set(static_cast<float>(twin::kFewPointsUpTo)));
+      if (!hn::AllFalse(D(), broad)) lobe = face_lobe(group, few, axis, light.attenuation);
+      if (!hn::AllTrue(D(), broad))
+        lobe = hn::IfThenElse(broad, lobe, face_lobe(group, many, axis, light.attenuation));
+    }
+    hn::Store(hn::Mul(weight, lobe), D(), out + i);
   }
-  hn::Store(hn::Mul(weight, lobe), D(), out);
 }
 
 /// Lambert's formula over the whole rectangle. x0..y1: the edges as the sample sees them; h its
@@ -269,10 +286,11 @@ HWY_INLINE void shade_rectangle(const Samples& samples, const twin::Light& light
       }
     }
     hn::Store(lux, D(), irradiance + i);
-    if (glossy != nullptr)
-      gloss_of_face(group, light, twin::face_points, 0.5 * light.width, 0.5 * light.height,
-                    glossy + i);
   }
+  if (glossy == nullptr) return;
+  const double w = 0.5 * light.width, h = 0.5 * light.height;
+  gloss_of_face(samples, tile, light, FacePoints(light, twin::face_points(1), w, h),
+                FacePoints(light, twin::face_points(1e3), w, h), glossy);
 }
 
 /// As in twin/lights/disk.cpp.
@@ -285,8 +303,9 @@ HWY_INLINE V capped(V f, V cosine) {
   const V y =
       hn::Min(hn::Max(hn::Neg(hn::Div(hn::Mul(x, cosine), sine)), set(-1)), set(1));
   const V z = hn::Mul(sine, hn::Sqrt(hn::Max(hn::NegMulAdd(y, y, set(1)), zero())));
-  const V atan = arc_cosine(
-      hn::Mul(x, inverse_root(hn::Max(hn::MulAdd(x, x, hn::Mul(z, z)), set(1e-12f)))));
+  const V size = inverse_root(hn::Max(hn::MulAdd(x, x, hn::Mul(z, z)), set(1e-12f)));
+  const V atan =
+      hn::Mul(acute_angle_over_sine(hn::Min(hn::Mul(x, size), set(1))), hn::Mul(z, size));
   const V part = hn::MulAdd(hn::MulSub(cosine, arc_cosine(y), hn::Mul(x, z)), f, atan);
   const V some = hn::Mul(hn::Max(part, zero()), set(static_cast<float>(1 / core::kPi)));
   return hn::IfThenElse(cut, some, whole);
@@ -325,9 +344,11 @@ HWY_INLINE void shade_disk(const Samples& samples, const twin::Light& light, std
       lux = hn::Mul(hn::Mul(lux, far), faded(light.attenuation, inverse_root(far)));
     }
     hn::Store(hn::IfThenElseZero(hn::Gt(h, zero()), lux), D(), irradiance + i);
-    if (glossy != nullptr)
-      gloss_of_face(group, light, twin::disk_points, light.radius, light.radius, glossy + i);
   }
+  if (glossy == nullptr) return;
+  const double r = light.radius;
+  gloss_of_face(samples, tile, light, FacePoints(light, twin::disk_points(1), r, r),
+                FacePoints(light, twin::disk_points(1e3), r, r), glossy);
 }
 
 /// False when this kind has no vector kernel.

@@ -46,19 +46,33 @@ HWY_INLINE V inverse_root(V v) {
   return hn::Mul(r, hn::NegMulAdd(hn::Mul(half, r), r, set(1.5f)));
 }
 
+/// Polynomials by Estrin's scheme: the pairs do not wait for each other, as Horner's steps would.
+/// x2 and x4 are the powers of x. Seven coefficients or nine, from the constant upwards.
+HWY_INLINE V pair(V x, float c0, float c1) { return hn::MulAdd(set(c1), x, set(c0)); }
+HWY_INLINE V polynomial(V x, V x2, V x4, float c0, float c1, float c2, float c3, float c4, float c5,
+                        float c6) {
+  const V low = hn::MulAdd(pair(x, c2, c3), x2, pair(x, c0, c1));
+  return hn::MulAdd(hn::MulAdd(set(c6), x2, pair(x, c4, c5)), x4, low);
+}
+HWY_INLINE V polynomial(V x, V x2, V x4, float c0, float c1, float c2, float c3, float c4, float c5,
+                        float c6, float c7, float c8) {
+  const V low = hn::MulAdd(pair(x, c2, c3), x2, pair(x, c0, c1));
+  const V middle = hn::MulAdd(pair(x, c6, c7), x2, pair(x, c4, c5));
+  return hn::MulAdd(hn::MulAdd(set(c8), x4, middle), x4, low);
+}
+
 /// acos(x) / sqrt(1 - x^2) for -1 < x <= 1: angle over sine, what Lambert's formula asks of an edge.
 /// A Chebyshev fit on 0..1 (error 1.4e-7), reflected below 0.
+HWY_INLINE V acute_angle_over_sine(V y) {
+  const V y2 = hn::Mul(y, y);
+  return polynomial(y, y2, hn::Mul(y2, y2), 1.570796251296997f, -0.9999822378158569f,
+                    0.7848962545394897f, -0.6610894799232483f, 0.5570220351219177f,
+                    -0.4245661795139313f, 0.2532384693622589f, -0.0979687049984932f,
+                    0.01765366829931736f);
+}
 HWY_INLINE V angle_over_sine(V x) {
   const V y = hn::Min(hn::Abs(x), set(1));
-  V p = set(0.01765366829931736f);
-  p = hn::MulAdd(p, y, set(-0.0979687049984932f));
-  p = hn::MulAdd(p, y, set(0.2532384693622589f));
-  p = hn::MulAdd(p, y, set(-0.4245661795139313f));
-  p = hn::MulAdd(p, y, set(0.5570220351219177f));
-  p = hn::MulAdd(p, y, set(-0.6610894799232483f));
-  p = hn::MulAdd(p, y, set(0.7848962545394897f));
-  p = hn::MulAdd(p, y, set(-0.9999822378158569f));
-  p = hn::MulAdd(p, y, set(1.570796251296997f));
+  const V p = acute_angle_over_sine(y);
   const M obtuse = hn::Lt(x, zero());
   if (hn::AllFalse(D(), obtuse)) return p;
   const V square_sine = hn::Max(hn::NegMulAdd(y, y, set(1)), set(1e-7f));
@@ -67,8 +81,10 @@ HWY_INLINE V angle_over_sine(V x) {
 }
 /// acos for |x| <= 1.
 HWY_INLINE V arc_cosine(V x) {
-  const V square_sine = hn::Max(hn::NegMulAdd(x, x, set(1)), set(1e-7f));
-  return hn::Mul(angle_over_sine(x), hn::Sqrt(square_sine));
+  const V y = hn::Abs(x);
+  const V sine = hn::Sqrt(hn::Max(hn::Mul(hn::Sub(set(1), y), hn::Add(set(1), y)), zero()));
+  const V acute = hn::Mul(acute_angle_over_sine(y), sine);
+  return hn::IfThenElse(hn::Lt(x, zero()), hn::Sub(set(3.14159265f), acute), acute);
 }
 
 /// x^k for x >= 0 (0 gives 0), by exp2(k log2 x). Relative error about 2e-7 (1 + k |log2 x|).
@@ -79,30 +95,25 @@ HWY_INLINE V power(V x, V k) {
   const auto exponent = hn::ShiftRight<23>(hn::Sub(bits, hn::Set(di, 0x3f3504f3)));
   const V m = hn::BitCast(D(), hn::Sub(bits, hn::ShiftLeft<23>(exponent)));
   const V t = hn::Sub(m, set(1));  // mantissa about 1: -0.29 .. 0.41
-  V p = set(7.0376836292e-2f);
-  p = hn::MulAdd(p, t, set(-1.1514610310e-1f));
-  p = hn::MulAdd(p, t, set(1.1676998740e-1f));
-  p = hn::MulAdd(p, t, set(-1.2420140846e-1f));
-  p = hn::MulAdd(p, t, set(1.4249322787e-1f));
-  p = hn::MulAdd(p, t, set(-1.6668057665e-1f));
-  p = hn::MulAdd(p, t, set(2.0000714765e-1f));
-  p = hn::MulAdd(p, t, set(-2.4999993993e-1f));
-  p = hn::MulAdd(p, t, set(3.3333331174e-1f));
-  p = hn::MulAdd(p, t, set(-0.5f));
-  const V ln = hn::MulAdd(hn::Mul(t, t), p, t);
+  const V t2 = hn::Mul(t, t), t4 = hn::Mul(t2, t2);
+  V p = polynomial(t, t2, t4, -0.5f, 3.3333331174e-1f, -2.4999993993e-1f, 2.0000714765e-1f,
+                   -1.6668057665e-1f, 1.4249322787e-1f, -1.2420140846e-1f, 1.1676998740e-1f,
+                   -1.1514610310e-1f);
+  p = hn::MulAdd(hn::Mul(set(7.0376836292e-2f), t), hn::Mul(t4, t4), p);
+  const V ln = hn::MulAdd(t2, p, t);
   const V log2 = hn::MulAdd(ln, set(1.44269504f), hn::ConvertTo(D(), exponent));
-  const V y = hn::Max(hn::Mul(k, log2), set(-120));
+  // Nothing below 2^-60: it could not be seen, and products with it would turn denormal and slow.
+  const V asked = hn::Mul(k, log2);
+  const M none = hn::Or(dark, hn::Lt(asked, set(-60)));
+  const V y = hn::Max(asked, set(-60));
   const V whole = hn::Round(y);
   const V f = hn::Sub(y, whole);
-  V e = set(1.535336188319500e-4f);
-  e = hn::MulAdd(e, f, set(1.339887440266574e-3f));
-  e = hn::MulAdd(e, f, set(9.618437357674640e-3f));
-  e = hn::MulAdd(e, f, set(5.550332471162809e-2f));
-  e = hn::MulAdd(e, f, set(2.402264791363012e-1f));
-  e = hn::MulAdd(e, f, set(6.931472028550421e-1f));
-  e = hn::MulAdd(e, f, set(1));
+  const V f2 = hn::Mul(f, f);
+  const V e = polynomial(f, f2, hn::Mul(f2, f2), 1, 6.931472028550421e-1f, 2.402264791363012e-1f,
+                         5.550332471162809e-2f, 9.618437357674640e-3f, 1.339887440266574e-3f,
+                         1.535336188319500e-4f);
   const auto scale = hn::ShiftLeft<23>(hn::Add(hn::ConvertTo(di, whole), hn::Set(di, 127)));
-  return hn::IfThenZeroElse(dark, hn::Mul(e, hn::BitCast(D(), scale)));
+  return hn::IfThenZeroElse(none, hn::Mul(e, hn::BitCast(D(), scale)));
 }
 
 }  // namespace chiaro::render::kernels::HWY_NAMESPACE
