@@ -16,7 +16,7 @@ constexpr core::Size kPatches{32, 32};
 constexpr double kDarkest = 0.004;  // display-linear; chroma below it is noise
 // Pull towards the present colour, relative to a lamp's own weight in the fit: decides only where
 // the picture does not.
-constexpr double kInertia = 0.01;
+constexpr double kInertia = 0.002;
 constexpr int kColourSteps = 241;
 
 /// One thing a lamp can mix: an end of its CCT range, or one primary.

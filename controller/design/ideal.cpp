@@ -33,13 +33,14 @@ core::Range elevations(const core::Range& region) {
   return both.width() >= 0 ? both : region;
 }
 
-/// Places worth a try: as it stands, and straight behind over the elevations.
+/// Places worth a try: as it stands where its elevation is a back light's, then over those
+/// elevations at its own azimuth and straight behind.
 std::vector<core::FixtureState> places(const studio::Fixture& fixture,
-                                       const core::FixtureState& now, bool may_move) {
-  std::vector<core::FixtureState> places{now};
+                                       const core::FixtureState& now) {
   const studio::Region* region = region_of(fixture);
-  if (region == nullptr || !may_move) return places;
   const core::Range range = elevations(region->elevation);
+  std::vector<core::FixtureState> places;
+  if (range.contains(now.get(core::Dof::elevation))) places.push_back(now);
   for (const double azimuth : {now.get(core::Dof::azimuth), behind(region->azimuth)})
     for (int e = 0; e < kElevations; ++e) {
       core::FixtureState place = now;
@@ -106,25 +107,32 @@ void try_levels(const Setting& setting, const measure::PixelMap& silhouette, Wor
   }
 }
 
-studio::Rig with_stage(const Setting& setting, studio::Rig rig, IdealStage stage, bool may_move) {
-  const measure::PixelMap silhouette = silhouette_of(setting.map);
-  for (const std::size_t fixture : setting.variables.lit) {
-    if (stage_of(setting.studio.fixtures[fixture].role) != stage) continue;
-    const Variables one = only(setting.variables, fixture, rig);
-    const Setting alone{setting.studio, setting.layers, one,
-                        setting.target, setting.map,    setting.accuracy};
-    Workspace workspace(alone);
-    Best best;
-    for (const auto& place :
-         places(setting.studio.fixtures[fixture], rig.states[fixture], may_move)) {
+/// The lamp alone is set for the most silhouette at the least light; the first of equals wins.
+core::FixtureState set_alone(const Setting& setting, const measure::PixelMap& silhouette,
+                             const studio::Rig& rig, std::size_t fixture, bool may_move) {
+  const studio::Fixture& lamp = setting.studio.fixtures[fixture];
+  const bool background = stage_of(lamp.role) == IdealStage::background;
+  const Variables one = only(setting.variables, fixture, rig);
+  Workspace workspace(
+      Setting{setting.studio, setting.layers, one, setting.target, setting.map, setting.accuracy});
+  Best best;
+  if (may_move && region_of(lamp) != nullptr)
+    for (const auto& place : places(lamp, rig.states[fixture])) {
       studio::Rig there = rig;
       there.states[fixture] = place;
-      const bool stays = place == rig.states[fixture];
-      if (!stays && !setting.layers.infeasible(there, fixture).empty()) continue;
-      try_levels(setting, silhouette, workspace, one, place, stage == IdealStage::background, best);
+      if (setting.layers.infeasible(there, fixture).empty())
+        try_levels(setting, silhouette, workspace, one, place, background, best);
     }
-    rig.states[fixture] = best.state;
-  }
+  if (!std::isfinite(best.cost))
+    try_levels(setting, silhouette, workspace, one, rig.states[fixture], background, best);
+  return best.state;
+}
+
+studio::Rig with_stage(const Setting& setting, studio::Rig rig, IdealStage stage, bool may_move) {
+  const measure::PixelMap silhouette = silhouette_of(setting.map);
+  for (const std::size_t fixture : setting.variables.lit)
+    if (stage_of(setting.studio.fixtures[fixture].role) == stage)
+      rig.states[fixture] = set_alone(setting, silhouette, rig, fixture, may_move);
   return rig;
 }
 
