@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A fuzzer without a fuzzer: valid studio files, mutated with fixed seeds. Whatever comes, the
 // reader loads it or reports it; it never throws, hangs or answers with an empty list.
-#include <gtest/gtest.h>
-
 #include <fstream>
+#include <gtest/gtest.h>
 
 #include "controller/core/random.h"
 #include "controller/studio/load.h"
@@ -14,11 +13,18 @@ namespace chiaro::studio {
 namespace {
 
 const std::vector<std::string>& hostile_words() {
-  static const std::vector<std::string> kWords{
-      ".nan",  ".inf", "1e308", "-1",  "0",     "99999999999999999999", "~",   "null", "[]",
-      "{}",    "&a",   "*a",    "<<:", "!!int", "- ",                   ": ",  "? ",   "\"",
-      "'",     "|",    ">",     "#",   "---\n", "\t",                   "deg", " m",   " K",
-      "[[[[[", "{{{{", "\n\n",  "°",   "\xff",  std::string(1, '\0'),   "yes", "%",    ","};
+  static const std::vector<std::string> kWords{".nan",  ".inf",  "1e308",
+                                               "-1",    "0",     "99999999999999999999",
+                                               "~",     "null",  "[]",
+                                               "{}",    "&a",    "*a",
+                                               "<<:",   "!!int", "- ",
+                                               ": ",    "? ",    "\"",
+                                               "'",     "|",     ">",
+                                               "#",     "---\n", "\t",
+                                               "deg",   " m",    " K",
+                                               "[[[[[", "{{{{",  "\n\n",
+                                               "°",     "\xff",  std::string(1, '\0'),
+                                               "yes",   "%",     ","};
   return kWords;
 }
 
@@ -33,9 +39,15 @@ std::string mutated(std::string text, core::Random& random) {
   for (std::size_t step = 0, steps = 1 + below(4); step < steps && !text.empty(); ++step) {
     const std::size_t at = below(text.size());
     switch (below(7)) {
-      case 0: text[at] = static_cast<char>(below(256)); break;
-      case 1: text.insert(at, hostile_words()[below(hostile_words().size())]); break;
-      case 2: text.erase(at, 1 + below(20)); break;
+      case 0:
+        text[at] = static_cast<char>(below(256));
+        break;
+      case 1:
+        text.insert(at, hostile_words()[below(hostile_words().size())]);
+        break;
+      case 2:
+        text.erase(at, 1 + below(20));
+        break;
       case 3: {
         const auto [start, length] = line_at(at);
         text.erase(start, length);
@@ -51,7 +63,8 @@ std::string mutated(std::string text, core::Random& random) {
         text.insert(start, 1 + below(8), ' ');
         break;
       }
-      default: text.resize(at);
+      default:
+        text.resize(at);
     }
   }
   return text;

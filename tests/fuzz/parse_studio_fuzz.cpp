@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // libFuzzer's door to the studio reader; built with Clang alone. Run for instance:
-//   fuzz_parse_studio -max_total_time=60 -dict=tests/fuzz/studio.dict config/studios
+//   fuzz_parse_studio -max_total_time=60 -dict=tests/fuzz/studio.dict corpus config/studios
 #include <cstddef>
 #include <cstdint>
 #include <string>

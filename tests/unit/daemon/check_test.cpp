@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <gtest/gtest.h>
-
 #include <fstream>
+#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "controller/daemon/command.h"
@@ -13,7 +12,7 @@ namespace {
 
 class CheckCommand : public ::testing::Test {
  protected:
-  CheckCommand() : network_(clock_), fake_(clock_, network_, folder_.path()) {
+  CheckCommand() : fake_(clock_, network_, folder_.path()) {
     fake_.world.config_folder = support::shipped_folders().config;
     support::write_full_studio_files(folder_.path());
   }
@@ -40,9 +39,10 @@ TEST_F(CheckCommand, PrintsThePatchSheetOfTheShippedStudio) {
   ASSERT_EQ(run({"check", portrait()}), ports::Exit::done) << fake_.err.str();
   EXPECT_EQ(fake_.err.str(), "");
   const std::string sheet = fake_.out.str();
-  EXPECT_NE(sheet.find("key      key         generic/bicolour-panel 4ch-16bit  1.001-004  14000 cd, "
-                       "bare  stand, 45° camera left, 35° up, 1.80 m\n"),
-            std::string::npos)
+  EXPECT_NE(
+      sheet.find("key      key         generic/bicolour-panel 4ch-16bit  1.001-004  14000 cd, "
+                 "bare  stand, 45° camera left, 35° up, 1.80 m\n"),
+      std::string::npos)
       << sheet;
   EXPECT_NE(sheet.find("universe 1: sACN on lo at 40 Hz, priority 100\n"), std::string::npos);
 }
@@ -59,8 +59,9 @@ TEST_F(CheckCommand, JsonIsOneObjectWithEveryFixture) {
 }
 
 TEST_F(CheckCommand, ListsEveryProblemWithFileLineAndColumnAndFails) {
-  const std::string file = written(support::edited(
-      support::edited(support::full_studio_text(), "role: hair", "role: hare"), "iso: 400", "iso: x"));
+  const std::string file = written(
+      support::edited(support::edited(support::full_studio_text(), "role: hair", "role: hare"),
+                      "iso: 400", "iso: x"));
   EXPECT_EQ(run({"check", file}), ports::Exit::input_has_problems);
   EXPECT_EQ(fake_.out.str(), "");
   const std::string said = fake_.err.str();

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `chiaro new`, answered through a pipe.
-#include <gtest/gtest.h>
-
 #include <fstream>
+#include <gtest/gtest.h>
 
 #include "controller/daemon/command.h"
 #include "controller/studio/load.h"
@@ -14,7 +13,7 @@ namespace {
 
 class NewCommand : public ::testing::Test {
  protected:
-  NewCommand() : network_(clock_), fake_(clock_, network_, folder_.path()) {
+  NewCommand() : fake_(clock_, network_, folder_.path()) {
     fake_.world.config_folder = support::shipped_folders().config;
   }
   ports::Exit run(const std::string& answers, std::vector<std::string> more = {}) {
@@ -42,7 +41,8 @@ class NewCommand : public ::testing::Test {
   support::FakeWorld fake_;
 };
 
-/// Name, sitter, eyes, ceiling, wall, camera (distance, height, angle, picture), lux, balance, wire.
+/// Name, sitter, eyes, ceiling, wall, camera (distance, height, angle, picture), lux, balance,
+/// wire.
 const std::string kRoom = "Attic\n\n1.3 m\n2.8 m\n\n\n\n\n\n\n\n\n";
 
 TEST_F(NewCommand, EnterAloneMakesAStudioThatLoads) {
@@ -99,8 +99,7 @@ TEST_F(NewCommand, BadAnswersAreAskedAgainWithAReason) {
         "'0' is not a whole number from 1 to 63999", "it needs 2 slots and would run past 512",
         "please answer yes or no", "what does 'over' mean?",
         "a lamp comes no nearer to a sitter than 0.6 m", "above the ceiling (3 m)",
-        "there is a lamp called 'key' already",
-        "that overlaps 'key' (1 to 2) (address 3 is free)"})
+        "there is a lamp called 'key' already", "that overlaps 'key' (1 to 2) (address 3 is free)"})
     EXPECT_TRUE(said(words)) << words << "\n" << fake_.err.str();
   EXPECT_EQ(loaded().fixtures.size(), 2u);
 }
@@ -110,16 +109,16 @@ TEST_F(NewCommand, WhenTheAnswersEndNothingIsWritten) {
     EXPECT_EQ(run(std::string(static_cast<std::size_t>(lines), '\n')),
               ports::Exit::input_has_problems);
     EXPECT_TRUE(said("the answers ended before the last question: nothing was written"));
-    EXPECT_TRUE(std::filesystem::is_empty(folder_.path()) ||
-                !std::filesystem::exists(file()));
+    EXPECT_TRUE(std::filesystem::is_empty(folder_.path()) || !std::filesystem::exists(file()));
   }
 }
 
 TEST_F(NewCommand, AFileThatIsThereStaysUnlessForced) {
   std::ofstream(file()) << "mine\n";
   EXPECT_EQ(run(std::string(60, '\n')), ports::Exit::input_has_problems);
-  EXPECT_TRUE(said("this file is there already (name another with --out, or overwrite it with "
-                   "--force)"));
+  EXPECT_TRUE(
+      said("this file is there already (name another with --out, or overwrite it with "
+           "--force)"));
   std::ifstream in(file());
   std::string word;
   in >> word;
