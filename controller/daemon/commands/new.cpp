@@ -60,7 +60,6 @@ ports::Exit create(const Options& options, ports::World& world, bool json) {
                     false}},
                   world, json);
   const studio::Folders folders{world.config_folder};
-  const auto base = std::filesystem::absolute(options.out, code).parent_path();
   interview::Dialogue dialogue(world.in, world.err);
   const auto answers = interview::interview(dialogue, base, folders);
   if (!answers)

@@ -132,10 +132,13 @@ TEST_F(NewCommand, QuotesAndBackslashesInANameSurvive) {
   EXPECT_EQ(loaded().name, "The \"big\" C:\\room # 1");
 }
 
-TEST_F(NewCommand, AFolderThatIsNotThereIsSaid) {
-  EXPECT_EQ(run(std::string(60, '\n'), {"--out", "/nowhere/at/all.yaml"}),
-            ports::Exit::input_has_problems);
-  EXPECT_TRUE(said("/nowhere/at/all.yaml: this file cannot be written"));
+TEST_F(NewCommand, AFolderThatIsNotThereIsSaidBeforeAnythingIsAsked) {
+  EXPECT_EQ(
+      run_chiaro(std::vector<std::string>{"new", "--out", "/nowhere/at/all.yaml"}, fake_.world),
+      ports::Exit::input_has_problems);
+  EXPECT_EQ(
+      fake_.err.str(),
+      "/nowhere/at/all.yaml: its folder is not there (make it, or name another with --out)\n");
 }
 
 }  // namespace
