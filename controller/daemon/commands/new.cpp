@@ -59,6 +59,13 @@ ports::Exit create(const Options& options, ports::World& world, bool json) {
                     "name another with --out, or overwrite it with --force",
                     false}},
                   world, json);
+  const auto base = std::filesystem::absolute(options.out, code).parent_path();
+  if (!std::filesystem::is_directory(base, code))
+    return refuse({{{options.out, 0, 0},
+                    "its folder is not there",
+                    "make it, or name another with --out",
+                    false}},
+                  world, json);
   const studio::Folders folders{world.config_folder};
   interview::Dialogue dialogue(world.in, world.err);
   const auto answers = interview::interview(dialogue, base, folders);
