@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// What others hear on the wire: the promised levels, and no gap, whoever is killed.
+#include <cmath>
+#include <csignal>
+
+#include "tests/end_to_end/stage.h"
+
+namespace chiaro::end_to_end {
+namespace {
+
+class Wire : public EndToEnd {
+ protected:
+  void SetUp() override {
+    studio_ = write_studio();
+    receiver_ = receiver();
+    demo_ = demo(studio_);
+    ASSERT_TRUE(eventually([&] {
+      const auto now = state();
+      return now.is_object() && now["studio"].value("ready", false) &&
+             now["hand"].value("connected", false);
+    })) << demo_->err();
+  }
+  /// Applies look.json through the API, without a fade; the id of the look.
+  std::int64_t apply(const Json& look) {
+    const auto saved = ask("POST", "/api/v1/looks", {{"name", "test"}, {"look", look}});
+    EXPECT_TRUE(saved.is_object());
+    const auto id = saved.value("id", std::int64_t{0});
+    const auto path = "/api/v1/looks/" + std::to_string(id) + "/apply";
+    EXPECT_FALSE(ask("POST", path, {{"fade_s", 0}}).is_null());
+    return id;
+  }
+  Json design() {
+    const auto file = folder_.path() / "look.json";
+    const auto done = chiaro({"design", studio_.string(), "--mood", "rembrandt", "--trials", "100",
+                              "--out", file.string()});
+    EXPECT_EQ(done.exit, 0) << done.err;
+    return Json::parse(content_of(file), nullptr, false);
+  }
+  std::vector<int> last_levels() {
+    const auto heard = packets(*receiver_);
+    return heard.empty() ? std::vector<int>() : heard.back()["levels"].get<std::vector<int>>();
+  }
+  bool brain_answers() { return state().is_object(); }
+
+  std::filesystem::path studio_;
+  std::unique_ptr<Process> receiver_, demo_;
+};
+
+/// The values of a fixture in look.json, wherever it lists its fixtures.
+Json fixture_of(const Json& look, const std::string& name) {
+  const auto& fixtures = look["fixtures"];
+  if (fixtures.is_object()) return fixtures.value(name, Json());
+  for (const auto& one : fixtures)
+    if (one.value("name", "") == name) return one;
+  return nullptr;
+}
+
+int sixteen(const std::vector<int>& levels, std::size_t address) {
+  return levels.at(address - 1) * 256 + levels.at(address);
+}
+
+// The bytes below are worked out by hand from config/fixtures: bicolour-panel in 4ch-16bit has a
+// linear 16-bit level and a 16-bit CCT from 2700 to 6500 K; the back light one linear 8-bit level.
+TEST_F(Wire, OthersHearTheLevelsThatTheLookPromises) {
+  // No stagehand will have moved anything yet: the look's placed levels count only for lamps that
+  // stay; so ask for a look of levels alone by taking what the daemon says it wants.
+  apply(design());
+  ASSERT_TRUE(eventually([&] {
+    const auto now = state();
+    return now.is_object() && now["instructions"].empty() && now["look"].is_object() &&
+           now["look"].value("fade", 0.0) >= 1;
+  })) << demo_->err();
+  ASSERT_TRUE(eventually(
+      [&] {
+        const auto levels = last_levels();
+        if (levels.size() != 512) return false;
+        const auto now = state();
+        for (const auto& fixture : now["fixtures"]) {
+          const auto& wanted = fixture["wanted"];
+          const double level = wanted.value("intensity", -1.0);
+          if (fixture["name"] == "key" || fixture["name"] == "fill") {
+            const std::size_t at = fixture["name"] == "key" ? 1 : 5;
+            if (std::abs(sixteen(levels, at) - 65535 * level) > 1) return false;
+            const double cct = wanted.value("cct_k", 0.0);
+            if (std::abs(sixteen(levels, at + 2) - 65535 * (cct - 2700) / 3800) > 1) return false;
+          }
+          if (fixture["name"] == "back" && std::abs(levels.at(8) - 255 * level) > 0.51)
+            return false;
+        }
+        return true;
+      },
+      30))
+      << state().dump(1) << Json(last_levels()).dump();
+  for (const auto& packet : packets(*receiver_))
+    EXPECT_FALSE(packet.contains("problem")) << packet.dump();
+}
+
+TEST_F(Wire, KillingTheBrainLeavesTheSequenceUnbrokenAndItReturnsWithTheSameLook) {
+  apply(design());
+  ASSERT_TRUE(eventually([&] {
+    const auto now = state();
+    return now.is_object() && now["instructions"].empty() && now["look"].is_object() &&
+           now["look"].value("fade", 0.0) >= 1;
+  })) << demo_->err();
+  const auto before = state();
+  const auto levels = last_levels();
+  const auto heard_before = packets(*receiver_).size();
+  const pid_t brain = child_of(demo_->pid(), "chiarod");
+  ASSERT_GT(brain, 0);
+  ASSERT_EQ(::kill(brain, SIGKILL), 0);
+  ASSERT_TRUE(eventually([&] {
+    const pid_t next = child_of(demo_->pid(), "chiarod");
+    return next > 0 && next != brain && brain_answers() && state()["studio"].value("ready", false);
+  })) << demo_->err();
+  const auto after = state();
+  EXPECT_EQ(after["look"].value("name", "?"), before["look"].value("name", ""));
+  EXPECT_EQ(after["look"].value("id", -1), before["look"].value("id", 0));
+  ASSERT_TRUE(eventually([&] { return packets(*receiver_).size() > heard_before + 120; }));
+  const auto heard = packets(*receiver_);
+  for (std::size_t i = 1; i < heard.size(); ++i) {
+    ASSERT_TRUE(heard[i].contains("sequence")) << heard[i].dump();
+    EXPECT_EQ(heard[i]["sequence"].get<int>(), (heard[i - 1]["sequence"].get<int>() + 1) % 256);
+    EXPECT_EQ(heard[i]["cid"], heard[0]["cid"]);
+  }
+  for (std::size_t i = heard_before; i < heard.size(); ++i)
+    ASSERT_EQ(heard[i]["levels"].get<std::vector<int>>(), levels) << "packet " << i;
+}
+
+TEST_F(Wire, BlackoutWorksWithTheBrainDead) {
+  apply(design());
+  ASSERT_TRUE(eventually([&] {
+    const auto levels = last_levels();
+    return levels.size() == 512 && levels[0] > 0;
+  }));
+  ASSERT_EQ(::kill(demo_->pid(), SIGSTOP), 0);  // the supervisor cannot bring the brain back
+  const pid_t brain = child_of(demo_->pid(), "chiarod");
+  ASSERT_EQ(::kill(brain, SIGKILL), 0);
+  environment_["CHIARO_RUNTIME"] += "/demo";
+  EXPECT_EQ(chiaro({"blackout", "on"}).exit, 0);
+  EXPECT_TRUE(eventually([&] { return last_levels() == std::vector<int>(512, 0); }, 20));
+  ::kill(demo_->pid(), SIGCONT);
+}
+
+TEST_F(Wire, EndingTheDemoEndsEverythingAndSaysGoodbyeOnTheWire) {
+  const pid_t hand = child_of(demo_->pid(), "chiaro-output");
+  ASSERT_GT(hand, 0);
+  EXPECT_EQ(demo_->stop(), 0) << demo_->err();
+  EXPECT_EQ(::kill(hand, 0), -1);
+  ASSERT_TRUE(eventually(
+      [&] {
+        const auto heard = packets(*receiver_);
+        std::size_t goodbyes = 0;
+        for (const auto& packet : heard) goodbyes += packet.value("terminated", false);
+        return goodbyes == 3;
+      },
+      20));
+}
+
+}  // namespace
+}  // namespace chiaro::end_to_end
