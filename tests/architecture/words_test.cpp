@@ -46,7 +46,8 @@ TEST(Words, EverySourceNamesItsLicenceFirst) {
 
 TEST(Words, EveryHeaderIsReadOnce) {
   for (const auto& file : files()) {
-    if (file.extension() != ".h") continue;
+    // Highway reads files called …-inl.h once for every instruction set.
+    if (file.extension() != ".h" || file.path.ends_with("-inl.h")) continue;
     bool once = false;
     for (const auto& line : file.lines) once = once || line == "#pragma once";
     EXPECT_TRUE(once) << file.path;

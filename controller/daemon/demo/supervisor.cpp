@@ -66,10 +66,7 @@ bool is_hopeless(int status) {
 
 }  // namespace
 
-Supervisor::Supervisor(std::filesystem::path logs) : logs_(std::move(logs)) {
-  std::error_code ignored;  // opening a log says it better
-  std::filesystem::create_directories(logs_, ignored);
-}
+Supervisor::Supervisor(std::filesystem::path logs) : logs_(std::move(logs)) {}
 
 Supervisor::~Supervisor() { end(); }
 
@@ -104,6 +101,8 @@ core::Result<core::Done> Supervisor::launch(Child& child, bool afresh) const {
 }
 
 core::Result<core::Done> Supervisor::start(const Program& program, ports::TimePoint now) {
+  std::error_code ignored;  // opening the log says it better
+  std::filesystem::create_directories(logs_, ignored);
   Child child{program, -1, 0, now, {}};
   auto started = launch(child, true);
   if (started) children_.push_back(std::move(child));
