@@ -177,7 +177,7 @@ core::Result<core::Done> Demo::start_programs(const std::string& studio_file) {
 
 core::Result<core::Done> Demo::make_one_look() {
   const auto mood = arguments_.mood.empty() ? "rembrandt" : arguments_.mood;
-  const auto made = make_look(link(), mood, kFade_s, world_.err);
+  const auto made = make_look(link(), mood, kFade_s, {world_.err, world_.err_is_terminal});
   if (!made) return made.problems();
   const auto picture = std::filesystem::absolute(arguments_.picture);
   if (const auto written = core::write_png(picture, side_by_side(*made)); !written)
@@ -192,7 +192,8 @@ core::Result<core::Done> Demo::make_one_look() {
 
 core::Result<core::Done> Demo::run_until_stopped() {
   if (!arguments_.mood.empty()) {
-    const auto made = make_look(link(), arguments_.mood, kFade_s, world_.err);
+    const auto made =
+        make_look(link(), arguments_.mood, kFade_s, {world_.err, world_.err_is_terminal});
     if (!made) return made.problems();
   }
   world_.out << "\nChiaro's demo is running: " << lamps_

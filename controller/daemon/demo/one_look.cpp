@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "controller/daemon/demo/one_look.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -74,20 +75,28 @@ core::Result<Json> wait_for_state(const DemoLink& link, double patience_s, const
                        "look into the logs; a very slow machine may need another try"};
 }
 
+void tell_design(Teller& tell, const Json& design, std::string& said) {
+  const auto stage = design.value("stage", "");
+  if (tell.terminal)
+    tell.out << fmt::format("\r\033[Kdesigning: {} {}/{}", stage, design.value("trial", 0u),
+                            design.value("trials", 0u))
+             << std::flush;
+  else if (stage != said && !stage.empty())
+    tell.out << "designing: " << stage << "\n" << std::flush;
+  said = stage;
+}
+
 /// The job's end: its look, or why there is none.
-core::Result<std::int64_t> wait_for_design(const DemoLink& link, std::uint64_t job,
-                                           std::ostream& progress) {
+core::Result<std::int64_t> wait_for_design(const DemoLink& link, std::uint64_t job, Teller tell) {
   std::string said;
   const auto state = wait_for_state(link, kDesignPatience_s, "the design", [&](const Json& now) {
     const auto& design = now["design"];
     if (!design.is_object() || design.value("job", 0u) != job) return false;
-    const auto words = fmt::format("designing: {} {}/{}", design.value("stage", ""),
-                                   design.value("trial", 0u), design.value("trials", 0u));
-    if (words != said) progress << words << "\n" << std::flush;
-    said = words;
+    tell_design(tell, design, said);
     const auto status = design.value("status", "");
     return status == "done" || status == "failed" || status == "cancelled";
   });
+  if (tell.terminal) tell.out << "\r\033[K" << std::flush;
   if (!state) return state.problems();
   const auto& design = (*state)["design"];
   if (design.value("status", "") == "done") return design["look"].get<std::int64_t>();
@@ -105,19 +114,21 @@ std::string light_of(const Json& state) {
   return all;
 }
 
-core::Result<Json> wait_for_light(const DemoLink& link, std::int64_t look, std::ostream& progress) {
-  std::string light;
-  std::size_t waiting = 0;
+void tell_stands(Teller& tell, const Json& state, std::string& said) {
+  if (state["instructions"].empty()) return;
+  const auto words = state["instructions"][0].value("words", "");
+  if (words != said) tell.out << "stagehand: " << words << "\n" << std::flush;
+  said = words;
+}
+
+core::Result<Json> wait_for_light(const DemoLink& link, std::int64_t look, Teller tell) {
+  std::string light, said;
   double since = link.seconds();
   return wait_for_state(link, kLightPatience_s, "the light", [&](const Json& now) {
-    const auto left = now["instructions"].size();
-    if (left > 0 && left != waiting)
-      for (const auto& one : now["instructions"])
-        progress << "stagehand: " << one.value("words", "") << "\n" << std::flush;
-    waiting = left;
+    tell_stands(tell, now, said);
     const auto& live = now["look"];
     const bool there = live.is_object() && live.value("id", std::int64_t{0}) == look &&
-                       live.value("fade", 0.0) >= 1 && left == 0;
+                       live.value("fade", 0.0) >= 1 && now["instructions"].empty();
     if (const auto seen = light_of(now); !there || seen != light) {
       light = seen;
       since = link.seconds();
@@ -127,22 +138,27 @@ core::Result<Json> wait_for_light(const DemoLink& link, std::int64_t look, std::
   });
 }
 
+std::uint64_t frames_of(const Json& state) {
+  return state["cameras"].empty() ? 0 : state["cameras"][0].value("frames", std::uint64_t{0});
+}
+
+/// Until a frame has come in that was begun after now: the next one may have been on its way.
+core::Result<Json> wait_for_fresh_frame(const DemoLink& link, std::uint64_t seen) {
+  return wait_for_state(link, kLightPatience_s, "a fresh camera picture",
+                        [&](const Json& now) { return frames_of(now) >= seen + 2; });
+}
+
+double aspect_of(const core::EncodedPicture& picture) {
+  return picture.size.height > 0 ? static_cast<double>(picture.size.width) / picture.size.height
+                                 : 1;
+}
+
 std::string lamp_in_words(const Json& fixture) {
   std::string text = fixture.value("name", "") + ": ";
   for (const auto* part : {"words", "level", "colour"})
     if (const auto words = fixture.value(part, ""); !words.empty())
       text += (text.back() == ' ' ? "" : " · ") + words;
   return text;
-}
-
-/// Mean difference in lightness, the camera's picture brought to the preview's size.
-double difference(const core::EncodedPicture& preview, const core::EncodedPicture& camera) {
-  const auto a = core::luminance(core::linear(preview));
-  const auto b = core::luminance(core::resized(core::linear(camera), preview.size));
-  double sum = 0;
-  for (std::size_t i = 0; i < a.values.size(); ++i)
-    sum += std::abs(core::lightness(a.values[i]) - core::lightness(b.values[i]));
-  return a.values.empty() ? 0 : sum / static_cast<double>(a.values.size());
 }
 
 core::Result<core::Done> take_pictures(const DemoLink& link, const Json& state, MadeLook& made) {
@@ -161,7 +177,7 @@ core::Result<core::Done> take_pictures(const DemoLink& link, const Json& state, 
     if (!picture) return picture.problems();
     into = std::move(*picture);
   }
-  made.difference = difference(made.preview, made.camera);
+  made.difference = lightness_difference(made.preview, made.camera);
   return core::Done{};
 }
 
@@ -176,17 +192,17 @@ core::Result<core::Done> wait_until_ready(const DemoLink& link, double patience_
 }
 
 core::Result<MadeLook> make_look(const DemoLink& link, const std::string& mood, double fade_s,
-                                 std::ostream& progress) {
+                                 Teller tell) {
   const double start = link.seconds();
   const auto job =
       ask_json(link, "POST", "/api/v1/design", Json{{"mood", mood}, {"seed", 1}}.dump());
   if (!job) return job.problems();
-  const auto look = wait_for_design(link, job->value("job", std::uint64_t{0}), progress);
+  const auto look = wait_for_design(link, job->value("job", std::uint64_t{0}), tell);
   if (!look) return look.problems();
   const auto applied = ask(link, "POST", fmt::format("/api/v1/looks/{}/apply", *look),
                            Json{{"fade_s", fade_s}}.dump());
   if (!applied) return applied.problems();
-  const auto state = wait_for_light(link, *look, progress);
+  const auto state = wait_for_light(link, *look, tell);
   if (!state) return state.problems();
   const auto& live = (*state)["look"];
   MadeLook made;
@@ -199,27 +215,50 @@ core::Result<MadeLook> make_look(const DemoLink& link, const std::string& mood, 
   made.trials = live.value("trials", std::uint64_t{0});
   made.design_s = live.value("seconds", 0.0);
   for (const auto& fixture : (*state)["fixtures"]) made.lamps.push_back(lamp_in_words(fixture));
-  if (const auto taken = take_pictures(link, *state, made); !taken) return taken.problems();
+  const auto fresh = wait_for_fresh_frame(link, frames_of(*state));
+  if (!fresh) return fresh.problems();
+  if (const auto taken = take_pictures(link, *fresh, made); !taken) return taken.problems();
   return made;
+}
+
+core::EncodedPicture cropped(const core::EncodedPicture& picture, double aspect) {
+  const auto whole = picture.size;
+  auto size = whole;
+  size.width = std::min(whole.width, static_cast<int>(std::lround(whole.height * aspect)));
+  size.height = std::min(whole.height, static_cast<int>(std::lround(whole.width / aspect)));
+  const int left = (whole.width - size.width) / 2, top = (whole.height - size.height) / 2;
+  core::EncodedPicture result(size);
+  for (int y = 0; y < size.height; ++y)
+    std::copy_n(picture.row(top + y) + left, size.width, result.row(y));
+  return result;
+}
+
+double lightness_difference(const core::EncodedPicture& a, const core::EncodedPicture& b) {
+  const double aspect = std::min(aspect_of(a), aspect_of(b));
+  const auto one = cropped(a, aspect), other = cropped(b, aspect);
+  const auto size = one.size.height < other.size.height ? one.size : other.size;
+  const auto x = core::luminance(core::resized(core::linear(one), size));
+  const auto y = core::luminance(core::resized(core::linear(other), size));
+  double sum = 0;
+  for (std::size_t i = 0; i < x.values.size(); ++i)
+    sum += std::abs(core::lightness(x.values[i]) - core::lightness(y.values[i]));
+  return x.values.empty() ? 0 : sum / static_cast<double>(x.values.size());
 }
 
 core::EncodedPicture side_by_side(const MadeLook& look) {
   constexpr int kGap = 8;
   const core::EncodedPicture* const all[] = {&look.reference, &look.preview, &look.camera};
+  double aspect = 1e9;
+  for (const auto* picture : all) aspect = std::min(aspect, aspect_of(*picture));
   const int height = look.camera.size.height;
-  std::vector<core::EncodedPicture> scaled;
-  int width = 2 * kGap;
-  for (const auto* picture : all) {
-    const int w = std::max(1, picture->size.width * height / std::max(1, picture->size.height));
-    scaled.push_back(core::encoded(core::resized(core::linear(*picture), {w, height})));
-    width += w;
-  }
-  core::EncodedPicture result({width, height}, {255, 255, 255});
+  const int width = std::max(1, static_cast<int>(std::lround(height * aspect)));
+  core::EncodedPicture result({3 * width + 2 * kGap, height}, {255, 255, 255});
   int left = 0;
-  for (const auto& picture : scaled) {
-    for (int y = 0; y < height; ++y)
-      std::copy_n(picture.row(y), picture.size.width, result.row(y) + left);
-    left += picture.size.width + kGap;
+  for (const auto* picture : all) {
+    const auto scaled =
+        core::encoded(core::resized(core::linear(cropped(*picture, aspect)), {width, height}));
+    for (int y = 0; y < height; ++y) std::copy_n(scaled.row(y), width, result.row(y) + left);
+    left += width + kGap;
   }
   return result;
 }

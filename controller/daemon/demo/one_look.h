@@ -27,6 +27,12 @@ struct DemoLink {
 /// Until the daemon answers, its studio is prepared and the hand is connected.
 core::Result<core::Done> wait_until_ready(const DemoLink& link, double patience_s);
 
+/// Where progress is told: on a terminal on one line that changes, else when the stage changes.
+struct Teller {
+  std::ostream& out;
+  bool terminal = false;
+};
+
 struct MadeLook {
   std::string mood, title, verdict, remedy, ratio;
   std::vector<std::string> lamps;  ///< "key: 47° camera left, 38° up, 1.6 m · 62 % · 4300 K"
@@ -39,9 +45,13 @@ struct MadeLook {
 /// Designs the mood, applies it with a fade of `fade_s`, waits until every stand stands and the
 /// light has settled, and takes the camera's picture.
 core::Result<MadeLook> make_look(const DemoLink& link, const std::string& mood, double fade_s,
-                                 std::ostream& progress);
+                                 Teller tell);
 
-/// Reference, preview and camera beside each other, of one height.
+/// The middle of the picture in the shape (width to height) `aspect`.
+core::EncodedPicture cropped(const core::EncodedPicture& picture, double aspect);
+/// Mean difference in lightness, 0..100, of what both show: the middle, at the smaller's size.
+double lightness_difference(const core::EncodedPicture& a, const core::EncodedPicture& b);
+/// Reference, preview and camera beside each other, of one height and shape.
 core::EncodedPicture side_by_side(const MadeLook& look);
 /// As people read it, and as one JSON object.
 std::string in_words(const MadeLook& look, const std::filesystem::path& picture);
