@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "controller/design/geometric_layers.h"
 
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <map>
 #include <mutex>
+#include <tbb/task_arena.h>
 
 #include "controller/core/picture_file.h"
 #include "controller/render/lighting.h"
@@ -75,8 +74,9 @@ class GeometricLayers : public Layers {
     if (accuracy == Accuracy::exact || twin_.options.reference) {
       // Isolated: while this thread waits for its rows it must not take up another trial, which
       // may hold what the caller is in the middle of.
-      tbb::this_task_arena::isolate(
-          [&] { f(lit, static_cast<const render::Visible&>(render::Traced(view_, lit, render::kExact))); });
+      tbb::this_task_arena::isolate([&] {
+        f(lit, static_cast<const render::Visible&>(render::Traced(view_, lit, render::kExact)));
+      });
       return;
     }
     const auto visible = cache_.at(fixture, state);
@@ -111,8 +111,7 @@ class GeometricSource : public LayersSource {
     auto& entry = sizes_[{size.width, size.height}];
     // The arena is isolated: a thread that waits here for rows must not pick up a planner's task
     // that asks for this lock again.
-    if (!entry)
-      arena_.execute([&] { entry = std::make_unique<GeometricLayers>(twin_, size); });
+    if (!entry) arena_.execute([&] { entry = std::make_unique<GeometricLayers>(twin_, size); });
     return *entry;
   }
 

@@ -107,8 +107,7 @@ HWY_INLINE void shade_spot(const Samples& s, const twin::Light& light, std::size
   const V candela = set(static_cast<float>(light.candela));
   const V outer = set(static_cast<float>(light.cos_field));
   // A hard edge is a very steep soft one.
-  const V slope =
-      set(static_cast<float>(1 / std::max(light.cos_beam - light.cos_field, 1e-6)));
+  const V slope = set(static_cast<float>(1 / std::max(light.cos_beam - light.cos_field, 1e-6)));
   const auto law = light.attenuation;
   shade_single(
       s, tile,
@@ -177,8 +176,8 @@ HWY_INLINE void gloss_of_face(const Samples& samples, std::size_t tile, const tw
     const V weight = group.load(Samples::specular);
     V lobe = zero();
     if (!hn::AllFalse(D(), hn::Gt(weight, zero()))) {
-      const M broad = hn::Le(group.load(Samples::shininess),
-                             set(static_cast<float>(twin::kFewPointsUpTo)));
+      const M broad =
+          hn::Le(group.load(Samples::shininess), set(static_cast<float>(twin::kFewPointsUpTo)));
       if (!hn::AllFalse(D(), broad)) lobe = face_lobe(group, few, axis, light.attenuation);
       if (!hn::AllTrue(D(), broad))
         lobe = hn::IfThenElse(broad, lobe, face_lobe(group, many, axis, light.attenuation));
@@ -218,7 +217,8 @@ HWY_INLINE V whole_plate(const Seen& s, Vec n) {
 /// One edge of a polygon whose corners are anywhere; zero-length corners give zero.
 HWY_INLINE V any_edge(Vec a, Vec b, Vec n) {
   const V tiny = set(1e-12f);
-  const V both = hn::Mul(inverse_root(hn::Max(dot(a, a), tiny)), inverse_root(hn::Max(dot(b, b), tiny)));
+  const V both =
+      hn::Mul(inverse_root(hn::Max(dot(a, a), tiny)), inverse_root(hn::Max(dot(b, b), tiny)));
   const V cosine = hn::Min(hn::Max(hn::Mul(dot(a, b), both), set(-1)), set(1));
   const Vec across{hn::MulSub(a.y, b.z, hn::Mul(a.z, b.y)), hn::MulSub(a.z, b.x, hn::Mul(a.x, b.z)),
                    hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
@@ -232,7 +232,8 @@ HWY_INLINE Vec choose(M m, Vec a, Vec b) {
 /// The same, cut at the surface's horizon: each edge keeps its part above, and one more edge along
 /// the horizon closes the polygon from where it was left to where it is entered again.
 HWY_INLINE V cut_plate(const Seen& s, Vec n) {
-  const Vec corners[4] = {{s.x0, s.y0, s.h}, {s.x1, s.y0, s.h}, {s.x1, s.y1, s.h}, {s.x0, s.y1, s.h}};
+  const Vec corners[4] = {
+      {s.x0, s.y0, s.h}, {s.x1, s.y0, s.h}, {s.x1, s.y1, s.h}, {s.x0, s.y1, s.h}};
   const Vec none{zero(), zero(), zero()};
   Vec left = none, entered = none;
   V sum = zero();
@@ -269,16 +270,14 @@ HWY_INLINE void shade_rectangle(const Samples& samples, const twin::Light& light
     const Vec n{dot(normal, right), dot(normal, up), dot(normal, ahead)};
     // Highest and lowest corner over the surface.
     const V middle = dot(n, {x, y, h});
-    const V reach =
-        hn::MulAdd(hn::Abs(n.x), half_width, hn::Mul(hn::Abs(n.y), half_height));
+    const V reach = hn::MulAdd(hn::Abs(n.x), half_width, hn::Mul(hn::Abs(n.y), half_height));
     const M dark = hn::Or(hn::Ge(h, zero()), hn::Le(hn::Add(middle, reach), zero()));
     V lux = zero();
     if (!hn::AllTrue(D(), dark)) {
       const M cut = hn::Lt(middle, reach);
       V sum = hn::AllTrue(D(), hn::Or(cut, dark)) ? zero() : whole_plate(seen, n);
       const M needs_cut = hn::AndNot(dark, cut);
-      if (!hn::AllFalse(D(), needs_cut))
-        sum = hn::IfThenElse(needs_cut, cut_plate(seen, n), sum);
+      if (!hn::AllFalse(D(), needs_cut)) sum = hn::IfThenElse(needs_cut, cut_plate(seen, n), sum);
       lux = hn::IfThenZeroElse(dark, hn::Mul(half_luminance, hn::Abs(sum)));
       if (light.attenuation != studio::Optic::Attenuation::inverse_square) {
         const V square = hn::Max(dot(to, to), set(1e-12f));
@@ -300,8 +299,7 @@ HWY_INLINE V capped(V f, V cosine) {
   if (hn::AllFalse(D(), cut)) return whole;
   const V sine = hn::Sqrt(hn::Max(hn::NegMulAdd(cosine, cosine, set(1)), set(1e-12f)));
   const V x = hn::Sqrt(hn::Max(hn::Sub(hn::Div(set(1), hn::Max(f, set(1e-12f))), set(1)), zero()));
-  const V y =
-      hn::Min(hn::Max(hn::Neg(hn::Div(hn::Mul(x, cosine), sine)), set(-1)), set(1));
+  const V y = hn::Min(hn::Max(hn::Neg(hn::Div(hn::Mul(x, cosine), sine)), set(-1)), set(1));
   const V z = hn::Mul(sine, hn::Sqrt(hn::Max(hn::NegMulAdd(y, y, set(1)), zero())));
   const V size = inverse_root(hn::Max(hn::MulAdd(x, x, hn::Mul(z, z)), set(1e-12f)));
   const V atan =
@@ -326,7 +324,8 @@ HWY_INLINE void shade_disk(const Samples& samples, const twin::Light& light, std
     const V dd = dot(aside, aside), hh = hn::Mul(h, h);
     const V q = hn::Add(hn::Add(hh, dd), rr), off = hn::Sub(hn::Add(hh, dd), rr);
     // (q^2 - 4 rr dd) without its cancellation: off^2 + 4 rr hh
-    const V s = hn::Sqrt(hn::Max(hn::MulAdd(off, off, hn::Mul(set(4), hn::Mul(rr, hh))), set(1e-20f)));
+    const V s =
+        hn::Sqrt(hn::Max(hn::MulAdd(off, off, hn::Mul(set(4), hn::Mul(rr, hh))), set(1e-20f)));
     const V axial_far = hn::Div(hn::Mul(set(2), hn::Mul(rr, hh)),
                                 hn::Mul(s, hn::Max(hn::Add(s, off), set(1e-12f))));
     const V axial_near = hn::Mul(set(0.5f), hn::Sub(set(1), hn::Div(off, s)));
@@ -356,11 +355,21 @@ bool Shade(const Samples& s, const twin::Light& light, std::size_t tile, float* 
            float* glossy) {
   using Kind = studio::Optic::Kind;
   switch (light.kind) {
-    case Kind::point: shade_point(s, light, tile, irradiance, glossy); return true;
-    case Kind::spot: shade_spot(s, light, tile, irradiance, glossy); return true;
-    case Kind::directional: shade_directional(s, light, tile, irradiance, glossy); return true;
-    case Kind::rectangle: shade_rectangle(s, light, tile, irradiance, glossy); return true;
-    case Kind::disk: shade_disk(s, light, tile, irradiance, glossy); return true;
+    case Kind::point:
+      shade_point(s, light, tile, irradiance, glossy);
+      return true;
+    case Kind::spot:
+      shade_spot(s, light, tile, irradiance, glossy);
+      return true;
+    case Kind::directional:
+      shade_directional(s, light, tile, irradiance, glossy);
+      return true;
+    case Kind::rectangle:
+      shade_rectangle(s, light, tile, irradiance, glossy);
+      return true;
+    case Kind::disk:
+      shade_disk(s, light, tile, irradiance, glossy);
+      return true;
   }
   return false;
 }

@@ -26,7 +26,8 @@ void combine_rgb(const Samples& samples, std::size_t tile, const float* irradian
                  const float* glossy, const float* visible, const float rgb[3], float glossy_gain,
                  float* out);
 
-/// Blended visibility of a tile from up to 8 places: sum of weight x bit, or of weight x byte / 255.
+/// Blended visibility of a tile from up to 8 places: sum of weight x bit, or of weight x byte /
+/// 255.
 struct Bits {
   const std::uint8_t* bits;  ///< 8 samples a byte, lowest bit first
   float weight;

@@ -62,8 +62,8 @@ void relit(std::span<const core::Plane* const> layers, std::span<const double> l
     from[k] = layers[k]->values.data();
     weights[k] = static_cast<float>(levels[k]);
   }
-  kernels::mix({from.data(), layers.size()}, {weights.data(), layers.size()},
-               ambient.values.data(), out.values.data(), out.values.size());
+  kernels::mix({from.data(), layers.size()}, {weights.data(), layers.size()}, ambient.values.data(),
+               out.values.data(), out.values.size());
 }
 
 core::Picture relit(std::span<const core::Layer> layers, std::span<const double> levels,
@@ -91,8 +91,7 @@ core::Picture picture(const View& view, const twin::Scene& scene, Shadows shadow
     layers.push_back(layer(view, scene.lights[k], scene.exposure_gain, shadows));
     levels.push_back(scene.levels[k]);
   }
-  return relit(layers, levels,
-               ambient_layer(view, scene.ambient_irradiance, scene.exposure_gain));
+  return relit(layers, levels, ambient_layer(view, scene.ambient_irradiance, scene.exposure_gain));
 }
 
 }  // namespace chiaro::render

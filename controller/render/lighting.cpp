@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "controller/render/lighting.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
+#include <tbb/parallel_for.h>
 
 #include "controller/render/kernels.h"
 #include "controller/render/work.h"

@@ -31,8 +31,8 @@ class Traced : public Visible {
   Strata strata_;
 };
 
-/// Diffuse + specular luminance of the light at full level, exposure applied. `visible` may be null:
-/// no shadows. `out` has the view's size.
+/// Diffuse + specular luminance of the light at full level, exposure applied. `visible` may be
+/// null: no shadows. `out` has the view's size.
 void luminance(const View& view, const twin::Light& light, double gain, const Visible* visible,
                core::Plane& out);
 /// In colour, diffuse and specular apart; `out` is resized as needed.

@@ -27,16 +27,27 @@ class Samples {
   explicit Samples(const core::GBuffer& buffer);
 
   enum Channel {
-    position_x, position_y, position_z,
-    normal_x, normal_y, normal_z,
-    viewer_x, viewer_y, viewer_z,
-    diffuse_r, diffuse_g, diffuse_b,
+    position_x,
+    position_y,
+    position_z,
+    normal_x,
+    normal_y,
+    normal_z,
+    viewer_x,
+    viewer_y,
+    viewer_z,
+    diffuse_r,
+    diffuse_g,
+    diffuse_b,
     diffuse_y,  ///< luminance of the albedo
-    specular, shininess,
+    specular,
+    shininess,
     kChannels
   };
   /// Values beyond count() up to a multiple of kTile are harmless: albedo 0, a normal up.
-  const float* channel(Channel c) const { return values_.get() + static_cast<std::size_t>(c) * padded_; }
+  const float* channel(Channel c) const {
+    return values_.get() + static_cast<std::size_t>(c) * padded_;
+  }
   std::size_t count() const { return count_; }
   std::size_t tiles() const { return padded_ / kTile; }
   std::size_t in_tile(std::size_t tile) const {

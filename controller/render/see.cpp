@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include "controller/render/samples.h"
 #include "controller/render/surface.h"
@@ -36,17 +37,18 @@ Pinhole pinhole(const studio::Camera& camera, core::Size size) {
 
 void resize(core::GBuffer& b, std::size_t n) {
   b.pixel.resize(n);
-  for (auto* list : {&b.position_x, &b.position_y, &b.position_z, &b.normal_x, &b.normal_y,
-                     &b.normal_z, &b.face_x, &b.face_y, &b.face_z, &b.viewer_x, &b.viewer_y,
-                     &b.viewer_z, &b.diffuse_r, &b.diffuse_g, &b.diffuse_b, &b.specular,
-                     &b.shininess, &b.depth})
+  for (auto* list :
+       {&b.position_x, &b.position_y, &b.position_z, &b.normal_x, &b.normal_y, &b.normal_z,
+        &b.face_x, &b.face_y, &b.face_z, &b.viewer_x, &b.viewer_y, &b.viewer_z, &b.diffuse_r,
+        &b.diffuse_g, &b.diffuse_b, &b.specular, &b.shininess, &b.depth})
     list->resize(n);
   b.object.resize(n);
 }
 
 void store(core::GBuffer& b, std::size_t i, const Surface& s, const Pinhole& camera, Vec3 direction,
            const Tracer::Hit& hit) {
-  const auto put = [i](std::vector<float>& x, std::vector<float>& y, std::vector<float>& z, Vec3 v) {
+  const auto put = [i](std::vector<float>& x, std::vector<float>& y, std::vector<float>& z,
+                       Vec3 v) {
     x[i] = static_cast<float>(v.x), y[i] = static_cast<float>(v.y), z[i] = static_cast<float>(v.z);
   };
   put(b.position_x, b.position_y, b.position_z, s.position);
@@ -74,10 +76,13 @@ View see(std::shared_ptr<const Tracer> tracer, const studio::Camera& camera, cor
   std::vector<std::size_t> first(static_cast<std::size_t>(size.height) + 1, 0);
   tbb::parallel_for(0, size.height, [&](int y) {
     std::size_t seen = 0;
-    for (int x = 0; x < size.width; ++x) {
-      Tracer::Hit& hit = hits[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)];
-      hit = tracer->closest(pin.eye, pin.direction(x, y));
-      seen += hit.hit;
+    Tracer::Hit* row = hits.data() + static_cast<std::size_t>(y) * width;
+    std::array<Vec3, 16> directions;
+    for (int x = 0; x < size.width; x += 16) {
+      const int n = std::min(16, size.width - x);
+      for (int k = 0; k < n; ++k) directions[static_cast<std::size_t>(k)] = pin.direction(x + k, y);
+      tracer->closest16(pin.eye, directions.data(), static_cast<std::size_t>(n), row + x);
+      for (int k = 0; k < n; ++k) seen += row[x + k].hit;
     }
     first[static_cast<std::size_t>(y) + 1] = seen;
   });
@@ -91,8 +96,8 @@ View see(std::shared_ptr<const Tracer> tracer, const studio::Camera& camera, cor
       if (!hits[pixel].hit) continue;
       const Vec3 direction = pin.direction(x, y);
       view.buffer.pixel[i] = static_cast<std::uint32_t>(pixel);
-      store(view.buffer, i++, surface_at(tracer->geometry(), hits[pixel], direction), pin, direction,
-            hits[pixel]);
+      store(view.buffer, i++, surface_at(tracer->geometry(), hits[pixel], direction), pin,
+            direction, hits[pixel]);
     }
   });
   view.tracer = std::move(tracer);

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "controller/render/shadow.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <embree3/rtcore.h>
 
 #include "controller/render/work.h"
 #include "controller/twin/lights/light_model.h"
@@ -102,8 +101,8 @@ class Shadow {
 
   void sum(const Packet& p, int across, const std::array<int, kPacket>& wanted, Sums& sums) {
     for (int s = 0; s < across * across; ++s) {
-      const Triple target = triple(model_.target(light_, {}, (s % across + 0.5) / across,
-                                                 (s / across + 0.5) / across));
+      const Triple target = triple(
+          model_.target(light_, {}, (s % across + 0.5) / across, (s / across + 0.5) / across));
       Lanes weight;
       alignas(64) std::array<int, kPacket> valid{};
       for (std::size_t k = 0; k < kPacket; ++k) {

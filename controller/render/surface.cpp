@@ -46,8 +46,8 @@ Surface surface_at(const twin::Geometry& geometry, const Tracer::Hit& hit, Vec3 
   out.position = w * a + u * b + v * d;
   out.face = unit(cross(b - a, d - a));
   if (dot(out.face, direction) > 0) out.face = -out.face;
-  out.normal = unit(w * at(mesh.normals, c[0]) + u * at(mesh.normals, c[1]) +
-                    v * at(mesh.normals, c[2]));
+  out.normal =
+      unit(w * at(mesh.normals, c[0]) + u * at(mesh.normals, c[1]) + v * at(mesh.normals, c[2]));
   if (dot(out.normal, out.face) < 0) out.normal = -out.normal;
   // Near a silhouette the smooth normal can point away from the viewer: bend it to grazing.
   const double away = dot(out.normal, direction);
@@ -58,9 +58,10 @@ Surface surface_at(const twin::Geometry& geometry, const Tracer::Hit& hit, Vec3 
   out.shininess = material.shininess;
   if (material.texture >= 0 && !mesh.texture_coordinates.empty()) {
     const float* t = mesh.texture_coordinates.data();
-    out.diffuse = out.diffuse * sampled(geometry.textures[static_cast<std::size_t>(material.texture)],
-                                        w * t[2 * c[0]] + u * t[2 * c[1]] + v * t[2 * c[2]],
-                                        w * t[2 * c[0] + 1] + u * t[2 * c[1] + 1] + v * t[2 * c[2] + 1]);
+    out.diffuse =
+        out.diffuse * sampled(geometry.textures[static_cast<std::size_t>(material.texture)],
+                              w * t[2 * c[0]] + u * t[2 * c[1]] + v * t[2 * c[2]],
+                              w * t[2 * c[0] + 1] + u * t[2 * c[1] + 1] + v * t[2 * c[2] + 1]);
   }
   return out;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <embree3/rtcore.h>
-
+#include <algorithm>
 #include <cmath>
+#include <embree3/rtcore.h>
 #include <stdexcept>
 
 #include "controller/render/view.h"
@@ -69,6 +69,36 @@ Tracer::Hit Tracer::closest(core::Vec3 from, core::Vec3 direction, double most) 
   rtcIntersect1(state_->scene, &context, &ray);
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
   return {true, ray.ray.tfar, ray.hit.u, ray.hit.v, ray.hit.geomID, ray.hit.primID};
+}
+
+void Tracer::closest16(core::Vec3 from, const core::Vec3* directions, std::size_t count,
+                       Hit* hits) const {
+  constexpr std::size_t kPacket = 16;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  alignas(64) int valid[kPacket];
+  alignas(64) RTCRayHit16 rays;
+  for (std::size_t k = 0; k < kPacket; ++k) {
+    const core::Vec3 d = directions[std::min(k, count - 1)];
+    valid[k] = k < count ? -1 : 0;
+    rays.ray.org_x[k] = static_cast<float>(from.x);
+    rays.ray.org_y[k] = static_cast<float>(from.y);
+    rays.ray.org_z[k] = static_cast<float>(from.z);
+    rays.ray.dir_x[k] = static_cast<float>(d.x);
+    rays.ray.dir_y[k] = static_cast<float>(d.y);
+    rays.ray.dir_z[k] = static_cast<float>(d.z);
+    rays.ray.tnear[k] = 0, rays.ray.tfar[k] = 1e30f, rays.ray.time[k] = 0;
+    rays.ray.mask[k] = 0xffffffffu, rays.ray.id[k] = 0, rays.ray.flags[k] = 0;
+    rays.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+    rays.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
+  }
+  rtcIntersect16(valid, state_->scene, &context, &rays);
+  for (std::size_t k = 0; k < count; ++k)
+    hits[k] = rays.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID
+                  ? Hit{}
+                  : Hit{true,          rays.ray.tfar[k],   rays.hit.u[k],
+                        rays.hit.v[k], rays.hit.geomID[k], rays.hit.primID[k]};
 }
 
 bool Tracer::blocked(core::Vec3 from, core::Vec3 to) const {

@@ -61,8 +61,8 @@ HWY_INLINE V polynomial(V x, V x2, V x4, float c0, float c1, float c2, float c3,
   return hn::MulAdd(hn::MulAdd(set(c8), x4, middle), x4, low);
 }
 
-/// acos(x) / sqrt(1 - x^2) for -1 < x <= 1: angle over sine, what Lambert's formula asks of an edge.
-/// A Chebyshev fit on 0..1 (error 1.4e-7), reflected below 0.
+/// acos(x) / sqrt(1 - x^2) for -1 < x <= 1: angle over sine, what Lambert's formula asks of an
+/// edge. A Chebyshev fit on 0..1 (error 1.4e-7), reflected below 0.
 HWY_INLINE V acute_angle_over_sine(V y) {
   const V y2 = hn::Mul(y, y);
   return polynomial(y, y2, hn::Mul(y2, y2), 1.570796251296997f, -0.9999822378158569f,

@@ -30,6 +30,8 @@ class Tracer {
     std::uint32_t mesh = 0, triangle = 0;
   };
   Hit closest(core::Vec3 from, core::Vec3 direction, double most = 1e30) const;
+  /// Up to 16 rays from one point in much the same direction, at once. Precondition: count 1..16.
+  void closest16(core::Vec3 from, const core::Vec3* directions, std::size_t count, Hit* hits) const;
   bool blocked(core::Vec3 from, core::Vec3 to) const;
   const twin::Geometry& geometry() const;
   void* embree_scene() const;  ///< RTCScene, for kernels inside `render` and the simulator

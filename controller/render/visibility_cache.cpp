@@ -34,7 +34,8 @@ struct Axis {
 };
 Axis axis(core::Range range, double step) {
   const double width = std::max(0.0, range.width());
-  const int parts = width > 1e-9 ? std::max(1, static_cast<int>(std::ceil(width / step - 1e-9))) : 0;
+  const int parts =
+      width > 1e-9 ? std::max(1, static_cast<int>(std::ceil(width / step - 1e-9))) : 0;
   return {range.least, parts > 0 ? width / parts : 0, parts + 1};
 }
 
@@ -62,8 +63,8 @@ Grid grid(const studio::Fixture& fixture, GridSpacing spacing) {
   out.distance = parallel ? Axis{d.least, 0, 1} : axis(d, std::log(spacing.ratio));
   out.elevation = axis(out.region.elevation, spacing.angle);
   for (int e = 0; e < out.elevation.places; ++e)
-    out.azimuth.push_back(axis(out.region.azimuth,
-                               spacing.angle / std::max(0.2, std::cos(out.elevation.at(e)))));
+    out.azimuth.push_back(
+        axis(out.region.azimuth, spacing.angle / std::max(0.2, std::cos(out.elevation.at(e)))));
   return out;
 }
 
@@ -89,8 +90,8 @@ std::vector<Corner> corners(const Grid& g, const core::Spherical& place) {
     const auto [a0, fa] = g.azimuth[static_cast<std::size_t>(e0 + e)].find(place.azimuth);
     for (int a = 0; a < (fa > 0 ? 2 : 1); ++a)
       for (int d = 0; d < (fd > 0 ? 2 : 1); ++d)
-        out.push_back({e0 + e, a0 + a, d0 + d,
-                       we * (a == 0 ? 1 - fa : fa) * (d == 0 ? 1 - fd : fd)});
+        out.push_back(
+            {e0 + e, a0 + a, d0 + d, we * (a == 0 ? 1 - fa : fa) * (d == 0 ? 1 - fd : fd)});
   }
   return out;
 }
@@ -171,8 +172,10 @@ struct VisibilityCache::State {
     return place;
   }
 
-  /// Serial by intent: a thread that waits for another's place must not be lent other work meanwhile.
-  void fill(std::size_t fixture, const core::FixtureState& where, Strata strata, Place& place) const {
+  /// Serial by intent: a thread that waits for another's place must not be lent other work
+  /// meanwhile.
+  void fill(std::size_t fixture, const core::FixtureState& where, Strata strata,
+            Place& place) const {
     const studio::Fixture& f = studio.fixtures[fixture];
     const twin::Light light =
         twin::light(f, where, view.tracer->geometry().aim, studio.exposure.white_balance);

@@ -46,27 +46,28 @@ class Builder {
     set_aim();
     for (const studio::BackgroundPlane& plane : studio_.background) add(plane);
     if (out_->meshes.empty()) {
-      return core::Problem{{studio_.file.string(), 0, 0},
-                           "the studio has neither subject nor background: there is nothing to light",
-                           "add a subject: with a mesh, or {stand_in: person}"};
+      return core::Problem{
+          {studio_.file.string(), 0, 0},
+          "the studio has neither subject nor background: there is nothing to light",
+          "add a subject: with a mesh, or {stand_in: person}"};
     }
     return std::shared_ptr<const Geometry>(out_);
   }
 
  private:
   void refuse(const studio::Subject& subject, std::string what, std::string remedy) {
-    problems_.push_back({subject.place, "subject \"" + subject.name + "\": " + std::move(what),
-                         std::move(remedy)});
+    problems_.push_back(
+        {subject.place, "subject \"" + subject.name + "\": " + std::move(what), std::move(remedy)});
   }
 
   core::AimFrame camera_frame(Vec3 at) const {
-    return core::aim_frame(at, studio_.cameras.empty() ? at + Vec3{0, -1, 0}
-                                                       : studio_.main_camera().at);
+    return core::aim_frame(
+        at, studio_.cameras.empty() ? at + Vec3{0, -1, 0} : studio_.main_camera().at);
   }
 
   std::optional<Turn> turn(const studio::Subject& subject, bool y_up_by_format) {
-    const bool y_up = subject.up == studio::UpAxis::by_format ? y_up_by_format
-                                                              : subject.up == studio::UpAxis::y;
+    const bool y_up =
+        subject.up == studio::UpAxis::by_format ? y_up_by_format : subject.up == studio::UpAxis::y;
     Turn out;
     out.model_up = y_up ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
     Vec3 front = subject.front.value_or(y_up ? Vec3{0, 0, 1} : Vec3{0, -1, 0});
@@ -108,8 +109,8 @@ class Builder {
     core::Box3 box;
     std::vector<Vec3> points(vertices);
     for (std::size_t i = 0; i < vertices; ++i) {
-      points[i] = turned({from.positions[3 * i], from.positions[3 * i + 1],
-                          from.positions[3 * i + 2]});
+      points[i] =
+          turned({from.positions[3 * i], from.positions[3 * i + 1], from.positions[3 * i + 2]});
       box.include(points[i]);
     }
     if (subject.height && box.extent().z < 1e-9) {
@@ -134,8 +135,8 @@ class Builder {
     mesh.normals.resize(3 * vertices);
     for (std::size_t i = 0; i < vertices; ++i) {
       const Vec3 p = stand + scale * points[i];
-      const Vec3 n = unit(turned({from.normals[3 * i], from.normals[3 * i + 1],
-                                  from.normals[3 * i + 2]}));
+      const Vec3 n =
+          unit(turned({from.normals[3 * i], from.normals[3 * i + 1], from.normals[3 * i + 2]}));
       put(mesh.positions, i, p);
       put(mesh.normals, i, n);
     }
@@ -185,10 +186,9 @@ class Builder {
     const PlaneFrame frame = plane_frame(plane, out_->aim);
     Mesh mesh;
     mesh.name = plane.name;
-    const Vec3 corners[] = {frame.centre - frame.right - frame.up,
-                            frame.centre + frame.right - frame.up,
-                            frame.centre + frame.right + frame.up,
-                            frame.centre - frame.right + frame.up};
+    const Vec3 corners[] = {
+        frame.centre - frame.right - frame.up, frame.centre + frame.right - frame.up,
+        frame.centre + frame.right + frame.up, frame.centre - frame.right + frame.up};
     mesh.positions.resize(12);
     mesh.normals.resize(12);
     for (std::size_t i = 0; i < 4; ++i) {

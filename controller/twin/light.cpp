@@ -53,7 +53,9 @@ Pose pose(const studio::Fixture& fixture, const core::FixtureState& state,
            },
            [&](const studio::StandMount& m) -> Pose { return about_aim(m.at, state, aim); },
            [&](const studio::VirtualMount& m) -> Pose { return about_aim(m.at, state, aim); },
-           [&](const studio::PanTiltMount& m) -> Pose { return {m.at, panned(m, state)}; },
+           [&](const studio::PanTiltMount& m) -> Pose {
+             return {m.at, panned(m, state)};
+           },
            [&](const studio::ArcMount& m) -> Pose {
              const Vec3 at = on_arc(m, aim);
              return {at, unit_or_down(aim.origin - at)};

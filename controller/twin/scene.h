@@ -42,8 +42,8 @@ struct Geometry {
   std::vector<core::Picture> textures;  ///< linear albedo; v = 0 is the bottom row, repeating
   core::AimFrame aim;                   ///< frame of azimuth, elevation, distance
   core::Box3 subject_bounds, bounds;
-  double radius = 1;            ///< of the subjects about the aim, metres
-  core::Problems warnings;      ///< what was left out (a missing texture), for people
+  double radius = 1;        ///< of the subjects about the aim, metres
+  core::Problems warnings;  ///< what was left out (a missing texture), for people
 };
 
 /// Loads, welds, normalises, scales and places every subject and background plane. Prepared meshes

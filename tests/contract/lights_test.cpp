@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What every kind of light must keep to, whatever its shape: over each line of lights.def.
-#include <gtest/gtest.h>
-
 #include <cmath>
+#include <gtest/gtest.h>
 
 #include "controller/core/random.h"
 #include "controller/twin/lights/light_model.h"
@@ -48,8 +47,8 @@ TEST_P(Lights, AreListedUnderTheirKind) {
 TEST_P(Lights, AreFiniteAndNeverNegativeAnywhere) {
   core::Random random(3);
   const Light light = lamp(GetParam().kind);
-  std::vector<Vec3> places{light.position, light.position + Vec3{0, 0, -1e-9}, {0, 0, 2.5},
-                           {0.25, 0.4, 2}, {1e4, 0, 0}};
+  std::vector<Vec3> places{
+      light.position, light.position + Vec3{0, 0, -1e-9}, {0, 0, 2.5}, {0.25, 0.4, 2}, {1e4, 0, 0}};
   for (int i = 0; i < 2000; ++i) places.push_back(anywhere(random, 4));
   for (const Vec3 at : places) {
     const Vec3 normal = unit(anywhere(random, 1)), viewer = unit(anywhere(random, 1));
@@ -99,13 +98,14 @@ TEST_P(Lights, EqualTheSumOverTheirFace) {
   core::Random random(11);
   for (int trial = 0; trial < 40; ++trial) {
     const Vec3 at{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1.4)};
-    const Vec3 normal = unit(Vec3{random.uniform(-1, 1), random.uniform(-1, 1),
-                                  random.uniform(-0.3, 1)});
+    const Vec3 normal =
+        unit(Vec3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-0.3, 1)});
     constexpr int kAcross = 64;
     double sum = 0;
     for (int k = 0; k < kAcross * kAcross; ++k) {
       const Vec3 to = GetParam().target(light, at, (k % kAcross + 0.5) / kAcross,
-                                        (k / kAcross + 0.5) / kAcross) - at;
+                                        (k / kAcross + 0.5) / kAcross) -
+                      at;
       const double d = length(to);
       sum += std::max(0.0, dot(to, normal)) * std::max(0.0, -dot(to, light.direction)) /
              (d * d * d * d);

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/meshes.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <unistd.h>
 
 namespace chiaro::support {
 namespace {
@@ -33,10 +32,10 @@ Ball icosahedron() {
                        Vec3{0, -1, t}, Vec3{0, 1, t}, Vec3{0, -1, -t}, Vec3{0, 1, -t},
                        Vec3{t, 0, -1}, Vec3{t, 0, 1}, Vec3{-t, 0, -1}, Vec3{-t, 0, 1}})
     ball.points.push_back(unit(p));
-  ball.triangles = {{0, 11, 5}, {0, 5, 1}, {0, 1, 7},  {0, 7, 10}, {0, 10, 11},
+  ball.triangles = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
                     {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
-                    {3, 9, 4},  {3, 4, 2}, {3, 2, 6},  {3, 6, 8},  {3, 8, 9},
-                    {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},  {9, 8, 1}};
+                    {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
+                    {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
   return ball;
 }
 
@@ -53,7 +52,8 @@ Ball finer(const Ball& from) {
   };
   for (const auto& [a, b, c] : from.triangles) {
     const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-    out.triangles.insert(out.triangles.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+    out.triangles.insert(out.triangles.end(),
+                         {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
   }
   return out;
 }
@@ -113,8 +113,8 @@ void write_ply(const std::filesystem::path& file, const twin::Mesh& mesh) {
   std::ofstream out(file, std::ios::binary);
   const std::size_t vertices = mesh.positions.size() / 3;
   out << "ply\nformat binary_little_endian 1.0\nelement vertex " << vertices
-      << "\nproperty float x\nproperty float y\nproperty float z\nelement face "
-      << mesh.triangles() << "\nproperty list uchar int vertex_indices\nend_header\n";
+      << "\nproperty float x\nproperty float y\nproperty float z\nelement face " << mesh.triangles()
+      << "\nproperty list uchar int vertex_indices\nend_header\n";
   out.write(reinterpret_cast<const char*>(mesh.positions.data()),
             static_cast<std::streamsize>(3 * vertices * sizeof(float)));
   for (std::size_t t = 0; t < mesh.triangles(); ++t) {
@@ -146,7 +146,8 @@ studio::Studio ball_studio(const std::filesystem::path& folder, int levels) {
   subject.at = {0, 0, 1.2};
   subject.material = studio::Material{{0.6, 0.5, 0.4}, 0.1, 24};
   out.subjects.push_back(subject);
-  out.background.push_back({"wall", {0, 1.2, 0}, {0, -1, 0}, 6, 4, {{0.35, 0.35, 0.35}, 0, 16}, {}});
+  out.background.push_back(
+      {"wall", {0, 1.2, 0}, {0, -1, 0}, 6, 4, {{0.35, 0.35, 0.35}, 0, 16}, {}});
   studio::Camera camera;
   camera.name = "main";
   camera.at = {0, -2.6, 1.45};
@@ -157,9 +158,8 @@ studio::Studio ball_studio(const std::filesystem::path& folder, int levels) {
   const auto degrees = [](double azimuth, double elevation, double distance) {
     return core::Spherical{core::radians(azimuth), core::radians(elevation), distance};
   };
-  const studio::Region front{{core::radians(-80), core::radians(80)},
-                             {core::radians(-10), core::radians(70)},
-                             {1.2, 2.4}};
+  const studio::Region front{
+      {core::radians(-80), core::radians(80)}, {core::radians(-10), core::radians(70)}, {1.2, 2.4}};
   studio::Optic soft;
   soft.kind = studio::Optic::Kind::rectangle;
   soft.width = 0.6;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `chiaro render`: what the main camera would see, once, with exact shadows.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -50,11 +51,24 @@ core::Result<studio::Rig> wanted_rig(const studio::Studio& studio, const std::st
   return read->wanted;
 }
 
+core::Problems wrong_endings(const Asked& asked) {
+  core::Problems problems;
+  const auto ends = [](const std::string& file, const char* with) {
+    return std::filesystem::path(file).extension() == with;
+  };
+  if (!ends(asked.out, ".png") && !ends(asked.out, ".exr"))
+    problems.push_back(refusal(asked.out, "the picture is written as .png or .exr",
+                               "choose one of the two endings"));
+  if (!asked.objects.empty() && !ends(asked.objects, ".png"))
+    problems.push_back(refusal(asked.objects, "object numbers are written as .png", "end it so"));
+  if (!asked.depth.empty() && !ends(asked.depth, ".exr"))
+    problems.push_back(refusal(asked.depth, "depth is written as .exr", "end it so"));
+  return problems;
+}
+
 core::Result<core::Done> write(const std::filesystem::path& file, const core::Picture& picture) {
   if (file.extension() == ".exr") return core::write_exr(file, picture);
-  if (file.extension() == ".png") return core::write_png(file, core::encoded(picture));
-  return refusal(file.string(), "pictures are written as .png or .exr",
-                 "choose one of the two endings");
+  return core::write_png(file, core::encoded(picture));
 }
 
 core::Result<core::Done> write_all(const Asked& asked, const render::View& view,
@@ -94,6 +108,7 @@ void say(const Asked& asked, const render::View& view, ports::World& world, bool
 }
 
 core::Problems render_look(const Asked& asked, ports::World& world, bool json) {
+  if (core::Problems wrong = wrong_endings(asked); !wrong.empty()) return wrong;
   auto loaded = studio::load_studio(asked.studio, {world.config_folder});
   if (!loaded) return loaded.problems();
   const studio::Studio& studio = loaded->studio;
@@ -107,7 +122,10 @@ core::Problems render_look(const Asked& asked, ports::World& world, bool json) {
   world.err << core::to_string((*geometry)->warnings);
   const render::View view =
       render::see(std::make_shared<const render::Tracer>(*geometry), studio.main_camera(), *size);
-  const core::Picture picture = render::picture(view, twin::lit_by(studio, *geometry, *rig));
+  const twin::Scene scene = twin::lit_by(studio, *geometry, *rig);
+  if (std::all_of(scene.levels.begin(), scene.levels.end(), [](double l) { return l <= 0; }))
+    world.err << "Every lamp of this look is at 0: the picture shows the ambient light alone.\n";
+  const core::Picture picture = render::picture(view, scene);
   if (auto done = write_all(asked, view, picture); !done) return done.problems();
   say(asked, view, world, json);
   return {};
@@ -124,8 +142,10 @@ void declare_render(CLI::App& app, ports::World& world, Verdict& verdict) {
   verb->add_option("--out", asked->out, "the picture to write: .png, or .exr in linear light")
       ->required();
   verb->add_option("--size", asked->size, "such as 640x480; the camera's own when left out");
-  verb->add_option("--objects", asked->objects, "also write each pixel's object number (16-bit .png)");
-  verb->add_option("--depth", asked->depth, "also write the distance along the camera's axis (.exr)");
+  verb->add_option("--objects", asked->objects,
+                   "also write each pixel's object number (16-bit .png)");
+  verb->add_option("--depth", asked->depth,
+                   "also write the distance along the camera's axis (.exr)");
   verb->callback([asked, &world, &verdict] {
     const core::Problems problems = render_look(*asked, world, verdict.json);
     world.err << core::to_string(problems);

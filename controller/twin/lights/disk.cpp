@@ -44,15 +44,16 @@ double irradiance(const Light& light, Vec3 at, Vec3 normal) {
   const Vec3 vector = factor(light, at);
   const double f = std::min(length(vector), 1.0);
   if (f <= 0) return 0;
-  const double luminance = light.candela / (core::kPi * std::max(light.radius * light.radius, 1e-9));
+  const double luminance =
+      light.candela / (core::kPi * std::max(light.radius * light.radius, 1e-9));
   const double d = distance(at, light.position);
   return core::kPi * luminance * capped(f, std::clamp(dot(vector, normal) / f, -1.0, 1.0)) *
          std::max(d * d, 1e-12) * faded(light.attenuation, d);
 }
 
 double specular(const Light& light, Vec3 at, Vec3 normal, Vec3 viewer, double shininess) {
-  return face_specular(light, disk_points(shininess), light.radius, light.radius, at, normal, viewer,
-                       shininess);
+  return face_specular(light, disk_points(shininess), light.radius, light.radius, at, normal,
+                       viewer, shininess);
 }
 
 /// Concentric map (Shirley and Chiu 1997): strata stay compact.

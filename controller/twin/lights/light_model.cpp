@@ -14,13 +14,13 @@ namespace chiaro::twin {
 namespace {
 const auto& all() {
   static const std::array kModels = {
-#define LIGHT(kind_name, kind_summary)                   \
-  [] {                                                   \
-    LightModel model = kind_name##_light();              \
-    model.kind = studio::Optic::Kind::kind_name;         \
-    model.name = #kind_name;                             \
-    model.summary = kind_summary;                        \
-    return model;                                        \
+#define LIGHT(kind_name, kind_summary)           \
+  [] {                                           \
+    LightModel model = kind_name##_light();      \
+    model.kind = studio::Optic::Kind::kind_name; \
+    model.name = #kind_name;                     \
+    model.summary = kind_summary;                \
+    return model;                                \
   }(),
 #include "controller/twin/lights/lights.def"
 #undef LIGHT
@@ -32,17 +32,20 @@ const auto& all() {
 std::span<const LightModel> light_models() { return all(); }
 
 const LightModel& light_model(studio::Optic::Kind kind) {
-  const auto found = std::find_if(all().begin(), all().end(),
-                                  [&](const LightModel& m) { return m.kind == kind; });
+  const auto found =
+      std::find_if(all().begin(), all().end(), [&](const LightModel& m) { return m.kind == kind; });
   return found != all().end() ? *found : all().front();
 }
 
 double faded(studio::Optic::Attenuation attenuation, double distance) {
   const double d = std::max(distance, kNearestLight);
   switch (attenuation) {
-    case studio::Optic::Attenuation::inverse_square: return 1 / (d * d);
-    case studio::Optic::Attenuation::linear: return 1 / d;
-    case studio::Optic::Attenuation::none: return 1;
+    case studio::Optic::Attenuation::inverse_square:
+      return 1 / (d * d);
+    case studio::Optic::Attenuation::linear:
+      return 1 / d;
+    case studio::Optic::Attenuation::none:
+      return 1;
   }
   return 1;
 }
@@ -96,8 +99,8 @@ double face_specular(const Light& light, std::span<const FacePoint> points, doub
                      double shininess) {
   double sum = 0;
   for (const FacePoint& point : points) {
-    const core::Vec3 to = light.position + point.x * half_right * light.right +
-                          point.y * half_up * light.up - at;
+    const core::Vec3 to =
+        light.position + point.x * half_right * light.right + point.y * half_up * light.up - at;
     const double d = std::max(length(to), kNearestLight);
     const core::Vec3 direction = to / d;
     const double leaving = std::max(0.0, -dot(light.direction, direction));

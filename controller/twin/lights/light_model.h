@@ -11,8 +11,9 @@
 
 namespace chiaro::twin {
 
-/// All functions are pure and finite for finite input (also at and behind the lamp). `at` is a point
-/// of the surface in metres, `normal` its unit normal, `viewer` the unit direction to the camera.
+/// All functions are pure and finite for finite input (also at and behind the lamp). `at` is a
+/// point of the surface in metres, `normal` its unit normal, `viewer` the unit direction to the
+/// camera.
 struct LightModel {
   studio::Optic::Kind kind;
   std::string_view name, summary;

@@ -8,7 +8,8 @@ namespace {
 
 double irradiance(const Light& light, core::Vec3 at, core::Vec3 normal) {
   const core::Vec3 to = light.position - at;
-  return light.candela * faded(light.attenuation, length(to)) * std::max(0.0, dot(normal, unit(to)));
+  return light.candela * faded(light.attenuation, length(to)) *
+         std::max(0.0, dot(normal, unit(to)));
 }
 
 double specular(const Light& light, core::Vec3 at, core::Vec3 normal, core::Vec3 viewer,

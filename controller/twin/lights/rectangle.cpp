@@ -48,8 +48,8 @@ double irradiance(const Light& light, Vec3 at, Vec3 normal) {
 }
 
 double specular(const Light& light, Vec3 at, Vec3 normal, Vec3 viewer, double shininess) {
-  return face_specular(light, face_points(shininess), 0.5 * light.width, 0.5 * light.height, at, normal,
-                       viewer, shininess);
+  return face_specular(light, face_points(shininess), 0.5 * light.width, 0.5 * light.height, at,
+                       normal, viewer, shininess);
 }
 
 Vec3 target(const Light& light, Vec3, double u, double v) {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <unistd.h>
-
 #include <bit>
 #include <cstring>
 #include <fstream>
 #include <span>
+#include <unistd.h>
 
 #include "controller/core/hash.h"
 #include "controller/twin/mesh/prepared_mesh.h"
@@ -211,8 +210,8 @@ core::Result<PreparedMesh> load_mesh(const std::filesystem::path& file,
   if (!bytes) return refusal(file, "the mesh cannot be read", "check its permissions");
   // The name's ending chooses the reader, so it belongs to the key; so does the folder, where the
   // materials and textures of this mesh are looked for.
-  const std::string where = file.extension().string() +
-                            std::filesystem::absolute(file, code).parent_path().string();
+  const std::string where =
+      file.extension().string() + std::filesystem::absolute(file, code).parent_path().string();
   const std::uint64_t content =
       content_hash(bytes->data(), bytes->size()) ^
       content_hash(reinterpret_cast<const std::uint8_t*>(where.data()), where.size());

@@ -143,8 +143,8 @@ std::vector<Vec3> smooth_normals(const Shape& shape) {
   std::vector<Vec3> normals(shape.corners.size());
   std::vector<Vec3> weighted;
   for (std::size_t p = 0; p < shape.points.size(); ++p) {
-    const auto corners = std::span(around.corner)
-                             .subspan(around.first[p], around.first[p + 1] - around.first[p]);
+    const auto corners =
+        std::span(around.corner).subspan(around.first[p], around.first[p + 1] - around.first[p]);
     weighted.clear();
     Vec3 sum;
     for (const std::uint32_t c : corners) {
@@ -183,8 +183,9 @@ std::vector<Vec3> given_normals(const RawMesh& raw, const Shape& shape) {
 PreparedMesh prepared(RawMesh raw) {
   Shape shape = welded_by_position(raw);
   drop_useless(raw, shape);
-  const std::vector<Vec3> normals =
-      raw.normals.size() == raw.positions.size() ? given_normals(raw, shape) : smooth_normals(shape);
+  const std::vector<Vec3> normals = raw.normals.size() == raw.positions.size()
+                                        ? given_normals(raw, shape)
+                                        : smooth_normals(shape);
   const bool textured = raw.texture_coordinates.size() / 2 == raw.vertices();
   PreparedMesh out;
   Welder<8> welder(shape.points.size());
@@ -193,9 +194,9 @@ PreparedMesh prepared(RawMesh raw) {
     const auto& p = shape.points[shape.corners[c]];
     const Vec3 n = normals[c];
     const float* t = textured ? &raw.texture_coordinates[2 * raw.indices[c]] : nullptr;
-    out.indices.push_back(welder.number({p[0], p[1], p[2], static_cast<float>(n.x),
-                                         static_cast<float>(n.y), static_cast<float>(n.z),
-                                         t ? t[0] : 0, t ? t[1] : 0}));
+    out.indices.push_back(
+        welder.number({p[0], p[1], p[2], static_cast<float>(n.x), static_cast<float>(n.y),
+                       static_cast<float>(n.z), t ? t[0] : 0, t ? t[1] : 0}));
   }
   for (const auto& key : welder.keys()) {
     out.positions.insert(out.positions.end(), {key[0], key[1], key[2]});

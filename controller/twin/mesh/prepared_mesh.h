@@ -39,7 +39,8 @@ core::Result<PreparedMesh> load_mesh(const std::filesystem::path& file,
 
 /// Where load_mesh keeps the mesh with this content. For tests and `chiaro bench`.
 std::filesystem::path cache_entry(const std::filesystem::path& cache, std::uint64_t content);
-/// 64 bits of a file's or entry's bytes, four lanes at a time: FNV-1a takes a second for a gigabyte.
+/// 64 bits of a file's or entry's bytes, four lanes at a time: FNV-1a takes a second for a
+/// gigabyte.
 std::uint64_t content_hash(const std::uint8_t* bytes, std::size_t size);
 
 std::vector<std::uint8_t> serialised(const PreparedMesh& mesh,

@@ -21,9 +21,9 @@ struct RawMesh {
   std::vector<std::uint16_t> material;     ///< one per triangle
   std::vector<SurfaceMaterial> materials;  ///< at least one
   std::vector<core::EncodedPicture> textures;
-  bool y_up = false;                            ///< by the format's custom; else Z up
-  std::vector<std::filesystem::path> depends;   ///< other files that were read (MTL, textures)
-  std::vector<std::string> warnings;            ///< what was left out, for people
+  bool y_up = false;                           ///< by the format's custom; else Z up
+  std::vector<std::filesystem::path> depends;  ///< other files that were read (MTL, textures)
+  std::vector<std::string> warnings;           ///< what was left out, for people
   std::size_t vertices() const { return positions.size() / 3; }
   std::size_t triangles() const { return indices.size() / 3; }
 };

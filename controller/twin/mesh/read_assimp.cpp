@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <assimp/material.h>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
-
 #include <algorithm>
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
+#include <assimp/material.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
 #include <cctype>
 #include <map>
 
@@ -183,9 +182,9 @@ core::Result<RawMesh> read_with_assimp(const std::filesystem::path& file) try {
   std::vector<std::filesystem::path> opened;
   Assimp::Importer importer;
   importer.SetIOHandler(new NotingFiles(opened));  // the importer owns it
-  const aiScene* scene = importer.ReadFile(
-      file.string(), aiProcess_Triangulate | aiProcess_ValidateDataStructure |
-                         aiProcess_SortByPType);
+  const aiScene* scene =
+      importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_ValidateDataStructure |
+                                           aiProcess_SortByPType);
   if (scene == nullptr)
     return core::Problem{{file.string(), 0, 0},
                          std::string("this mesh cannot be read: ") + importer.GetErrorString(),

@@ -14,19 +14,19 @@ core::Problem refusal(const std::filesystem::path& file, std::string what, std::
 /// What no reader may be trusted with: indices, numbers and sizes.
 core::Result<RawMesh> checked(const std::filesystem::path& file, RawMesh mesh) {
   if (mesh.indices.empty())
-    return refusal(file, "the mesh has no triangles (" + std::to_string(mesh.vertices()) +
-                             " points, no faces)",
-                   "export surfaces, not a point cloud or curves");
+    return refusal(
+        file,
+        "the mesh has no triangles (" + std::to_string(mesh.vertices()) + " points, no faces)",
+        "export surfaces, not a point cloud or curves");
   if (mesh.triangles() > kMostTriangles)
     return refusal(file, "the mesh has more than 40 million triangles",
                    "decimate it: 100,000 triangles light as well");
   const std::size_t vertices = mesh.vertices();
   for (const std::uint32_t i : mesh.indices)
     if (i >= vertices)
-      return refusal(file,
-                     "a face speaks of point " + std::to_string(i) + " of " +
-                         std::to_string(vertices),
-                     "the file is damaged: export it again");
+      return refusal(
+          file, "a face speaks of point " + std::to_string(i) + " of " + std::to_string(vertices),
+          "the file is damaged: export it again");
   for (std::size_t i = 0; i < mesh.positions.size(); ++i)
     if (!(std::abs(mesh.positions[i]) <= 1e9f))
       return refusal(file,
@@ -53,8 +53,7 @@ std::string lower_extension(const std::filesystem::path& file) {
 
 core::Result<RawMesh> read_mesh(const std::filesystem::path& file,
                                 const std::vector<std::uint8_t>& bytes) {
-  if (bytes.empty())
-    return refusal(file, "the mesh file is empty (0 bytes)", "export it again");
+  if (bytes.empty()) return refusal(file, "the mesh file is empty (0 bytes)", "export it again");
   const std::string kind = lower_extension(file);
   const std::string known[] = {".ply", ".obj", ".3ds", ".stl", ".gltf", ".glb", ".off", ".dae"};
   if (std::find(std::begin(known), std::end(known), kind) == std::end(known))

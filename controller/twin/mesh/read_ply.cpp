@@ -22,11 +22,11 @@ constexpr std::array<std::size_t, 8> kBytes{1, 1, 2, 2, 4, 4, 4, 8};
 
 std::optional<Type> type_named(std::string_view name) {
   constexpr std::pair<std::string_view, Type> kNames[] = {
-      {"char", Type::int8},     {"int8", Type::int8},       {"uchar", Type::uint8},
-      {"uint8", Type::uint8},   {"short", Type::int16},     {"int16", Type::int16},
-      {"ushort", Type::uint16}, {"uint16", Type::uint16},   {"int", Type::int32},
-      {"int32", Type::int32},   {"uint", Type::uint32},     {"uint32", Type::uint32},
-      {"float", Type::float32}, {"float32", Type::float32}, {"double", Type::float64},
+      {"char", Type::int8},      {"int8", Type::int8},       {"uchar", Type::uint8},
+      {"uint8", Type::uint8},    {"short", Type::int16},     {"int16", Type::int16},
+      {"ushort", Type::uint16},  {"uint16", Type::uint16},   {"int", Type::int32},
+      {"int32", Type::int32},    {"uint", Type::uint32},     {"uint32", Type::uint32},
+      {"float", Type::float32},  {"float32", Type::float32}, {"double", Type::float64},
       {"float64", Type::float64}};
   for (const auto& [known, type] : kNames)
     if (known == name) return type;
@@ -120,14 +120,22 @@ class Numbers {
       for (std::size_t i = 0; i < bytes; ++i) raw[i] = at_[bytes - 1 - i];
     at_ += bytes;
     switch (type) {
-      case Type::int8: return as<std::int8_t>(raw);
-      case Type::uint8: return as<std::uint8_t>(raw);
-      case Type::int16: return as<std::int16_t>(raw);
-      case Type::uint16: return as<std::uint16_t>(raw);
-      case Type::int32: return as<std::int32_t>(raw);
-      case Type::uint32: return as<std::uint32_t>(raw);
-      case Type::float32: return as<float>(raw);
-      case Type::float64: return as<double>(raw);
+      case Type::int8:
+        return as<std::int8_t>(raw);
+      case Type::uint8:
+        return as<std::uint8_t>(raw);
+      case Type::int16:
+        return as<std::int16_t>(raw);
+      case Type::uint16:
+        return as<std::uint16_t>(raw);
+      case Type::int32:
+        return as<std::int32_t>(raw);
+      case Type::uint32:
+        return as<std::uint32_t>(raw);
+      case Type::float32:
+        return as<float>(raw);
+      case Type::float64:
+        return as<double>(raw);
     }
     return 0;
   }
@@ -160,7 +168,8 @@ class Numbers {
 std::size_t least_bytes(const Element& element, Coding coding) {
   std::size_t bytes = 0;
   for (const Property& p : element.properties)
-    bytes += coding == Coding::ascii ? 2 : kBytes[static_cast<std::size_t>(p.count.value_or(p.type))];
+    bytes +=
+        coding == Coding::ascii ? 2 : kBytes[static_cast<std::size_t>(p.count.value_or(p.type))];
   return bytes;
 }
 
@@ -196,7 +205,8 @@ void read_vertices(const Element& element, Numbers& numbers, RawMesh& mesh) {
       row[k] = static_cast<float>(skip_or_read(numbers, element.properties[k]));
     mesh.positions.insert(mesh.positions.end(), {row[*x], row[*y], row[*z]});
     if (normals) mesh.normals.insert(mesh.normals.end(), {row[*nx], row[*ny], row[*nz]});
-    if (coordinates) mesh.texture_coordinates.insert(mesh.texture_coordinates.end(), {row[*u], row[*v]});
+    if (coordinates)
+      mesh.texture_coordinates.insert(mesh.texture_coordinates.end(), {row[*u], row[*v]});
   }
 }
 
@@ -233,8 +243,7 @@ void read_faces(const Element& element, Numbers& numbers, RawMesh& mesh) {
 
 core::Result<RawMesh> read_ply(const std::filesystem::path& file,
                                const std::vector<std::uint8_t>& bytes) try {
-  const Header header =
-      read_header({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  const Header header = read_header({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   RawMesh mesh;
   Numbers numbers(std::span<const std::uint8_t>(bytes).subspan(header.data), header.coding);
   for (const Element& element : header.elements) {
@@ -255,9 +264,8 @@ core::Result<RawMesh> read_ply(const std::filesystem::path& file,
   mesh.materials.emplace_back();
   return mesh;
 } catch (const Damaged& damage) {
-  return core::Problem{{file.string(), 0, 0},
-                       "this PLY mesh is damaged: " + damage.what,
-                       "export it again"};
+  return core::Problem{
+      {file.string(), 0, 0}, "this PLY mesh is damaged: " + damage.what, "export it again"};
 }
 
 }  // namespace chiaro::twin

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vector kernels against the formulas they were made from, on every instruction set here.
-#include <gtest/gtest.h>
+#include "controller/render/kernels.h"
 
 #include <array>
 #include <cmath>
+#include <gtest/gtest.h>
 #include <vector>
 
 #include "controller/core/random.h"
-#include "controller/render/kernels.h"
 #include "controller/twin/lights/light_model.h"
 
 namespace chiaro::render {
@@ -27,7 +27,8 @@ core::GBuffer scattered(std::size_t n) {
   core::Random random(5);
   core::GBuffer b;
   b.size = {static_cast<int>(n), 1};
-  const auto push = [](std::vector<float>& x, std::vector<float>& y, std::vector<float>& z, Vec3 v) {
+  const auto push = [](std::vector<float>& x, std::vector<float>& y, std::vector<float>& z,
+                       Vec3 v) {
     x.push_back(static_cast<float>(v.x));
     y.push_back(static_cast<float>(v.y));
     z.push_back(static_cast<float>(v.z));
@@ -87,11 +88,14 @@ void compare(void* data) {
       const Vec3 n{b.normal_x[i], b.normal_y[i], b.normal_z[i]};
       const Vec3 v{b.viewer_x[i], b.viewer_y[i], b.viewer_z[i]};
       const double head_on =
-          model.parallel ? 800 : 800 * twin::faded(context.light.attenuation,
-                                                   distance(at, context.light.position));
-      EXPECT_NEAR(irradiance[k], model.irradiance(context.light, at, n), (model.name == "spot" ? 1e-4 : 2e-5) * head_on)
+          model.parallel
+              ? 800
+              : 800 * twin::faded(context.light.attenuation, distance(at, context.light.position));
+      EXPECT_NEAR(irradiance[k], model.irradiance(context.light, at, n),
+                  (model.name == "spot" ? 1e-4 : 2e-5) * head_on)
           << model.name << " sample " << i;
-      EXPECT_NEAR(glossy[k], b.specular[i] * model.specular(context.light, at, n, v, b.shininess[i]),
+      EXPECT_NEAR(glossy[k],
+                  b.specular[i] * model.specular(context.light, at, n, v, b.shininess[i]),
                   1e-4 * head_on)
           << model.name << " sample " << i;
     }
@@ -112,7 +116,8 @@ TEST_P(Kernels, EqualTheFormulasOnEveryInstructionSet) {
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryLight, Kernels,
-                         testing::ValuesIn(twin::light_models().begin(), twin::light_models().end()),
+                         testing::ValuesIn(twin::light_models().begin(),
+                                           twin::light_models().end()),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
 void blend(void*) {

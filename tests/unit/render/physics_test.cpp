@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light behaves as light does: laws that hold whatever the code.
-#include <gtest/gtest.h>
-
 #include <cmath>
+#include <gtest/gtest.h>
 
 #include "controller/core/random.h"
 #include "controller/render/view.h"
@@ -81,13 +80,13 @@ TEST(Physics, RectangleMatchesTheSumOfManySmallSources) {
   const twin::Light light = rectangle({0.5, -0.7, 0.6}, 1000, 0.8, 1.1);
   const auto& model = twin::light_model(studio::Optic::Kind::rectangle);
   core::Random random(7);
-  for (const Vec3 normal : {Vec3{0, -1, 0}, unit(Vec3{0.9, 0.3, 0.1}), unit(Vec3{-0.6, 0.2, 0.7})}) {
+  for (const Vec3 normal :
+       {Vec3{0, -1, 0}, unit(Vec3{0.9, 0.3, 0.1}), unit(Vec3{-0.6, 0.2, 0.7})}) {
     double sum = 0;
     constexpr int kStrata = 200;
     for (int i = 0; i < kStrata * kStrata; ++i) {
-      const Vec3 target =
-          model.target(light, {}, (i % kStrata + random.uniform()) / kStrata,
-                       (i / kStrata + random.uniform()) / kStrata);
+      const Vec3 target = model.target(light, {}, (i % kStrata + random.uniform()) / kStrata,
+                                       (i / kStrata + random.uniform()) / kStrata);
       const double d = length(target);
       sum += std::max(0.0, dot(normal, target) / d) *
              std::max(0.0, -dot(light.direction, target) / d) / (d * d);
@@ -146,15 +145,13 @@ TEST(Physics, PictureIsTheSumOfItsLayers) {
   const studio::Studio studio = support::ball_studio(folder.path(), 3);
   const auto geometry = twin::build_geometry(studio, {});
   ASSERT_TRUE(geometry) << core::to_string(geometry.problems());
-  const View view =
-      see(std::make_shared<const Tracer>(*geometry), studio.main_camera(), {64, 64});
+  const View view = see(std::make_shared<const Tracer>(*geometry), studio.main_camera(), {64, 64});
   twin::Scene scene = twin::lit_by(studio, *geometry, studio::placed_rig(studio));
   scene.levels = {0.7, 0.2, 0.4};
   std::vector<core::Layer> layers;
   for (const twin::Light& light : scene.lights)
     layers.push_back(layer(view, light, scene.exposure_gain));
-  const core::Picture ambient =
-      ambient_layer(view, scene.ambient_irradiance, scene.exposure_gain);
+  const core::Picture ambient = ambient_layer(view, scene.ambient_irradiance, scene.exposure_gain);
   const core::Picture sum = relit(layers, scene.levels, ambient);
   const core::Picture whole = picture(view, scene);
   double brightest = 0;

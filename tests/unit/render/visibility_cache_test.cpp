@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "controller/render/visibility_cache.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+#include <gtest/gtest.h>
 #include <thread>
 
 #include "controller/render/samples.h"
@@ -33,9 +32,11 @@ class Cache : public testing::Test {
     visibility(view, *cache.at(fixture, where), out);
     return out;
   }
-  core::Plane lit(const Visible& visible, std::size_t fixture, const core::FixtureState& where) const {
+  core::Plane lit(const Visible& visible, std::size_t fixture,
+                  const core::FixtureState& where) const {
     core::Plane out;
-    luminance(view, twin::light(studio.fixtures[fixture], where, view.tracer->geometry().aim, {5600}),
+    luminance(view,
+              twin::light(studio.fixtures[fixture], where, view.tracer->geometry().aim, {5600}),
               1e-3, &visible, out);
     return out;
   }
@@ -127,7 +128,8 @@ TEST_F(Cache, LightsWithinAPercentOfTheTruthOnAverage) {
 
 TEST_F(Cache, FixedLampIsTracedExactly) {
   const VisibilityCache cache(view, studio, 64u << 20);
-  const twin::Light light = twin::light(studio.fixtures[2], {}, view.tracer->geometry().aim, {5600});
+  const twin::Light light =
+      twin::light(studio.fixtures[2], {}, view.tracer->geometry().aim, {5600});
   EXPECT_EQ(seen(cache, 2, {}), visibility(view, light, Shadows::soft));
 }
 
