@@ -89,8 +89,10 @@ function(chiaro_tests name)
   list(TRANSFORM ARG_USES PREPEND chiaro_)
   target_link_libraries(${name} PRIVATE chiaro_options ${ARG_USES} ${ARG_LIBS} GTest::gtest GTest::gmock GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE CHIARO_SOURCE="${CMAKE_SOURCE_DIR}" CHIARO_BIN="${CMAKE_BINARY_DIR}/bin")
+  # One label "integration,threads": discovery flattens lists, and ctest -L matches a part as well.
+  list(JOIN ARG_LABELS "," labels)
   gtest_discover_tests(${name} TEST_PREFIX ${name}. DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-    PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT})
+    PROPERTIES LABELS "${labels}" TIMEOUT ${ARG_TIMEOUT})
   # `ninja tests_<label>` builds what `ctest -L <label>` runs.
   foreach(label ${ARG_LABELS})
     if(NOT TARGET tests_${label})

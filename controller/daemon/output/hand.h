@@ -25,6 +25,8 @@ class Hand {
   void start(ports::TimePoint start) { show_->start(start); }
   void frame(ports::Clock& clock);
   ports::TimePoint next_deadline() const { return show_->next_deadline(); }
+  /// Says how things stand after the last frame.
+  void finish() { show_->report_now(); }
 
   // Any thread.
 

@@ -45,6 +45,7 @@ void send_until_stopped(Hand& hand, ports::World& world, const std::atomic<bool>
     hand.frame(world.clock);
     world.clock.sleep_until(hand.next_deadline());
   }
+  hand.finish();
 }
 
 void keep_house(Housekeeper& housekeeper, const Hand& hand, ports::World& world,

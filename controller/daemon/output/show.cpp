@@ -9,6 +9,9 @@ namespace chiaro::daemon {
 namespace {
 
 constexpr ports::Duration kIdlePeriod = std::chrono::milliseconds(25);
+/// A report of every lamp and every source costs more than all the levels: a quarter of the frames
+/// is plenty for people and brains.
+constexpr ports::Duration kReportPeriod = std::chrono::milliseconds(100);
 
 struct PortPlan {
   std::string driver;
@@ -172,10 +175,16 @@ void Show::frame(ports::Clock& clock) {
   plan_.encode(governor_.step(now), frames_);
   for (std::size_t i = 0; i < ports_.size(); ++i)
     if (ports_[i]->due(now)) ports_[i]->send(frames_[frame_of_port_[i]], clock);
-  post_report();
+  if (report_is_due(now)) report_now();
 }
 
-void Show::post_report() {
+bool Show::report_is_due(ports::TimePoint now) const {
+  return now - last_report_ >= kReportPeriod || governor_.caution() != report_.caution ||
+         governor_.blackout() != report_.blackout;
+}
+
+void Show::report_now() {
+  last_report_ = last_frame_;
   governor_.report(report_);
   for (std::size_t i = 0; i < ports_.size(); ++i) ports_[i]->report(report_.ports[i]);
   to_words(report_, sent_words_);

@@ -42,8 +42,10 @@ class Show {
   void take_over(Show& before);
   void start(ports::TimePoint start);
   ports::TimePoint next_deadline() const;
-  /// Hears the brain, decides the levels and sends every port that is due. Ends with a report.
+  /// Hears the brain, decides the levels and sends every port that is due. Ends with a report when
+  /// one is due: ten a second, and at once when caution or blackout have changed.
   void frame(ports::Clock& clock);
+  void report_now();
   void set_blackout(bool on) { governor_.set_blackout(on); }
   /// When every port has sent, or tried to, at or after `since`.
   bool all_tried_since(ports::TimePoint since) const;
@@ -66,7 +68,7 @@ class Show {
   void add_port(const studio::Output& output, const Options& options, ports::World& world,
                 const Show* before, core::Problems& warnings);
   void hear(ports::TimePoint now);
-  void post_report();
+  bool report_is_due(ports::TimePoint now) const;
 
   const studio::Studio studio_;
   patch::Plan plan_;
@@ -75,7 +77,7 @@ class Show {
   std::vector<std::unique_ptr<PortSlot>> ports_;  ///< one per output of the studio
   std::vector<std::size_t> frame_of_port_;        ///< index into frames_
   std::vector<double> rates_;
-  ports::TimePoint last_frame_;
+  ports::TimePoint last_frame_, last_report_;
 
   // What take_over needs, worked out when this was built.
   std::vector<std::ptrdiff_t> fixtures_before_, ports_before_;

@@ -85,6 +85,7 @@ TEST_F(Loop, SkipsTheDeadlinesItMissedAndCountsThemInsteadOfSendingABurst) {
   clock_.advance(1s);  // the machine was asleep
   frames(hand, 1);
   EXPECT_EQ(network_.sent() - before, 2u);  // two universes, once each
+  hand.finish();
   auto reader = BoxReader::open(world_.world.runtime_folder / "sent.box", sent_format(studio));
   ASSERT_TRUE(reader);
   std::vector<std::uint64_t> words(sent_format(studio).words);
