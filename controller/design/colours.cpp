@@ -154,26 +154,22 @@ double colour_distance(core::Rgb a, core::Rgb b) {
   return std::hypot(aa - ba, ab - bb);
 }
 
-/// As far as a lamp's mode and hands reach; many modes of lamps that have a tint do not carry it.
-core::Range tint_range(const studio::Fixture& fixture) {
-  for (const auto& [dof, range] : fixture.ranges())
-    if (dof == core::Dof::tint) return range;
-  return {};
-}
-
-/// The CCT, and the tint where the mode has one, whose light is nearest to `light`.
+/// The CCT, and the tint where there is one, whose light is nearest to `light`.
 core::FixtureState nearest_white(const studio::Fixture& fixture, core::FixtureState state,
                                  core::Rgb light, core::Kelvin balance) {
-  const core::Range ccts = fixture.profile.emitter.cct_range, tint = tint_range(fixture);
-  const int tints = tint.width() > 0 ? 41 : 1;
+  const studio::Emitter& emitter = fixture.profile.emitter;
+  const int tints = emitter.tint_range.width() > 0 ? 41 : 1;
   core::FixtureState best = state;
   double nearest = 1e9;
   for (int t = 0; t < tints; ++t)
     for (int c = 0; c < kColourSteps; ++c) {
       // Even steps in mired, as the eye sees them.
       const double share = static_cast<double>(c) / (kColourSteps - 1);
-      state.set(core::Dof::cct, 1 / ((1 - share) / ccts.least + share / ccts.most));
-      if (tints > 1) state.set(core::Dof::tint, tint.least + tint.width() * t / (tints - 1));
+      state.set(core::Dof::cct,
+                1 / ((1 - share) / emitter.cct_range.least + share / emitter.cct_range.most));
+      if (tints > 1)
+        state.set(core::Dof::tint,
+                  emitter.tint_range.least + emitter.tint_range.width() * t / (tints - 1));
       const double far = colour_distance(studio::light_colour(fixture, state, balance), light);
       if (far >= nearest) continue;
       nearest = far;

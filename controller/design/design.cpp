@@ -29,15 +29,14 @@ std::string goal_in_words(const Goal& goal) {
 }
 
 /// Where the lamps should stand.
-studio::Rig wanted_placements(const studio::Studio& studio, const LayersSource& twin,
-                              const Goal& goal, const Options& options, const Variables& all,
-                              const Prepared& full, Watch& watch,
+studio::Rig wanted_placements(const studio::Studio& studio, const Sizes& sizes, const Goal& goal,
+                              const Options& options, const Variables& all, Watch& watch,
                               std::vector<std::string>& warnings) {
   const Variables lamps = searched(studio, all, goal);
   if (lamps.moving.empty() || options.reference) return all.base;
-  const Prepared small = prepare(studio, twin.at(options.search_size), goal, all);
+  const Prepared &small = sizes.small, &middle = sizes.middle;
   const Setting coarse{studio, small.layers, lamps, small.target, small.map, Accuracy::cached};
-  const Setting fine{studio, full.layers, lamps, full.target, full.map, Accuracy::cached};
+  const Setting fine{studio, middle.layers, lamps, middle.target, middle.map, Accuracy::cached};
   const Found found = polish(fine, search(coarse, options, watch), options, watch);
   if (std::isfinite(found.cost)) return lamps.rig(found.point);
   warnings.push_back("no allowed place was found for the lamps together: they stay where they are");
@@ -104,15 +103,16 @@ core::Rgb advised_exposure(const studio::Studio& studio, const Prepared& full, L
 }
 
 /// Solves again for the advised exposure, where there is one; the places stay.
-void advise_exposure(const studio::Studio& studio, const Prepared& full, const Goal& goal,
+void advise_exposure(const studio::Studio& studio, const Sizes& sizes, const Goal& goal,
                      const Variables& all, Watch& watch, Look& look) {
-  const core::Rgb factor = advised_exposure(studio, full, look);
+  const core::Rgb factor = advised_exposure(studio, sizes.full, look);
   if (factor == core::Rgb{1, 1, 1}) return;
-  const ReexposedLayers reexposed(full.layers, factor);
-  const Prepared again = prepare(studio, reexposed, goal, all);
+  const ReexposedLayers small(sizes.small.layers, factor), middle(sizes.middle.layers, factor),
+      full(sizes.full.layers, factor);
+  const Sizes again = prepare(studio, goal, all, small, middle, full);
   look.wanted = completed(studio, again, all, look.wanted, false, watch);
   look.placed = completed(studio, again, all, look.placed, false, watch);
-  describe(studio, again, all, look);
+  describe(studio, again.full, all, look);
 }
 
 }  // namespace
@@ -131,15 +131,16 @@ core::Result<Look> design(const studio::Studio& studio, const LayersSource& twin
 
   const Variables all = variables_of(studio, options);
   const Layers& layers = twin.at(options.full_size);
-  const Prepared full = prepare(studio, layers, goal, all);
+  const Sizes sizes = prepare(studio, goal, all, twin.at(options.search_size),
+                              twin.at(options.polish_size), layers);
   const studio::Rig placements =
-      wanted_placements(studio, twin, goal, options, all, full, watch, look.warnings);
+      wanted_placements(studio, sizes, goal, options, all, watch, look.warnings);
   look.wanted = options.reference
-                    ? reference_rig(studio, goal, options, all, full, watch)
-                    : completed(studio, full, all, placements, options.move_stands, watch);
-  look.placed = completed(studio, full, all, placed_now(studio, all), false, watch);
-  describe(studio, full, all, look);
-  if (options.advise_exposure) advise_exposure(studio, full, goal, all, watch, look);
+                    ? reference_rig(studio, goal, options, all, sizes.full, watch)
+                    : completed(studio, sizes, all, placements, options.move_stands, watch);
+  look.placed = completed(studio, sizes, all, placed_now(studio, all), false, watch);
+  describe(studio, sizes.full, all, look);
+  if (options.advise_exposure) advise_exposure(studio, sizes, goal, all, watch, look);
 
   const auto moves = instructions(studio, studio::placed_rig(studio), look.wanted);
   look.instructions.insert(look.instructions.end(), moves.begin(), moves.end());

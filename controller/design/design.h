@@ -50,7 +50,9 @@ struct Options {
   bool advise_exposure = false;
   bool align = false;      ///< by example: shift and scale the exemplar to lie on the subject
   bool reference = false;  ///< yardstick: no cache, one thread, levels searched
-  core::Size search_size{128, 128}, full_size{256, 256};
+  /// Squares whose side is a power of two. Search: where tracing is cheapest. Polish: the best few
+  /// basins. Full: the last levels, colours and verdicts, exact visibility.
+  core::Size search_size{64, 64}, polish_size{128, 128}, full_size{256, 256};
   int threads = 2;
   const std::atomic<bool>* stop = nullptr;
   std::function<void(const Progress&)> progress;  ///< one thread at a time

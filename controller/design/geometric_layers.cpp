@@ -2,12 +2,15 @@
 #include "controller/design/geometric_layers.h"
 
 #include <algorithm>
+#include <deque>
 #include <map>
 #include <mutex>
+#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include "controller/core/picture_file.h"
 #include "controller/render/lighting.h"
+#include "controller/render/samples.h"
 #include "controller/render/visibility_cache.h"
 
 namespace chiaro::design {
@@ -23,13 +26,37 @@ struct Twin {
   core::Picture measured_ambient;  ///< empty unless the studio has one
 };
 
+/// Small views are for a search's first look: a grid twice as wide there costs a sixth of the rays.
+render::GridSpacing spacing_for(core::Size size) {
+  return size.height <= 64 ? render::GridSpacing{core::radians(15), 2.0} : render::GridSpacing{};
+}
+
+/// Traced once, asked often: a look's last stages want the same lamp's layer in luminance and in
+/// several colours.
+class Remembered : public render::Visible {
+ public:
+  Remembered(const render::View& view, const twin::Light& light)
+      : values_(view.samples->tiles() * render::kTile) {
+    const render::Traced traced(view, light, render::kExact);
+    tbb::parallel_for(std::size_t{0}, view.samples->tiles(), [&](std::size_t tile) {
+      traced.tile(tile, values_.data() + tile * render::kTile);
+    });
+  }
+  void tile(std::size_t tile, float* out) const override {
+    std::copy_n(values_.data() + tile * render::kTile, render::kTile, out);
+  }
+
+ private:
+  std::vector<float> values_;
+};
+
 class GeometricLayers : public Layers {
  public:
   GeometricLayers(const Twin& twin, core::Size size)
       : twin_(twin),
         view_(render::see(twin.tracer, twin.studio.main_camera(), size)),
         planes_(core::planes(view_.buffer)),
-        cache_(view_, twin.studio, twin.options.visibility_cache_bytes),
+        cache_(view_, twin.studio, twin.options.visibility_cache_bytes, spacing_for(size)),
         ambient_(make_ambient()) {}
 
   core::Size size() const override { return view_.buffer.size; }
@@ -71,7 +98,11 @@ class GeometricLayers : public Layers {
   void with_visible(std::size_t fixture, const core::FixtureState& state, Accuracy accuracy,
                     const F& f) const {
     const twin::Light lit = light(fixture, state);
-    if (accuracy == Accuracy::exact || twin_.options.reference) {
+    if (accuracy == Accuracy::exact && !twin_.options.reference) {
+      f(lit, static_cast<const render::Visible&>(*remembered(fixture, state, lit)));
+      return;
+    }
+    if (twin_.options.reference) {
       // Isolated: while this thread waits for its rows it must not take up another trial, which
       // may hold what the caller is in the middle of.
       tbb::this_task_arena::isolate([&] {
@@ -81,6 +112,33 @@ class GeometricLayers : public Layers {
     }
     const auto visible = cache_.at(fixture, state);
     f(lit, *visible);
+  }
+
+  /// The few lamps last traced exactly; a lamp's colour and level do not change what sees it.
+  std::shared_ptr<const Remembered> remembered(std::size_t fixture, const core::FixtureState& state,
+                                               const twin::Light& lit) const {
+    core::FixtureState place = state;
+    for (const core::DofInfo& each : core::dofs())
+      if (!core::is_placement(each.dof)) place.clear(each.dof);
+    const std::pair key{fixture, place};
+    const auto known = [&]() -> std::shared_ptr<const Remembered> {
+      for (const auto& [k, v] : recent_)
+        if (k == key) return v;
+      return nullptr;
+    };
+    {
+      const std::lock_guard lock(recent_mutex_);
+      if (auto found = known()) return found;
+    }
+    // Isolated: while this thread waits for its rows it must not take up another trial, which may
+    // hold what the caller is in the middle of.
+    std::shared_ptr<const Remembered> traced;
+    tbb::this_task_arena::isolate([&] { traced = std::make_shared<const Remembered>(view_, lit); });
+    const std::lock_guard lock(recent_mutex_);
+    if (auto found = known()) return found;
+    recent_.emplace_front(key, traced);
+    if (recent_.size() > kRemembered) recent_.pop_back();
+    return traced;
   }
 
   /// Uncontrolled practicals burn as the file says, whatever is designed.
@@ -99,6 +157,11 @@ class GeometricLayers : public Layers {
   core::GeometryPlanes planes_;
   render::VisibilityCache cache_;
   core::Picture ambient_;
+  static constexpr std::size_t kRemembered = 16;
+  mutable std::mutex recent_mutex_;
+  mutable std::deque<
+      std::pair<std::pair<std::size_t, core::FixtureState>, std::shared_ptr<const Remembered>>>
+      recent_;  ///< newest first
 };
 
 class GeometricSource : public LayersSource {

@@ -69,24 +69,48 @@ studio::Rig by_example(const Setting& setting, const studio::Rig& placements) {
   return with_flash_steps(setting, solved);
 }
 
+Prepared prepared(const Layers& layers, const Goal& goal) {
+  Prepared result{layers, target_of(goal, layers.size()), {}};
+  result.map = map_for(layers, result.target);
+  return result;
+}
+
+double placed_gradient(const studio::Studio& studio, const Prepared& at, const Variables& shape) {
+  if (shape.lit.empty()) return 0;
+  const std::size_t lamp = key_of(studio).value_or(shape.lit.front());
+  core::FixtureState state = shape.base.states[lamp];
+  state.set(core::Dof::intensity, 1);
+  core::Plane light(at.layers.size());
+  at.layers.luminance(lamp, state, Accuracy::exact, light);
+  return measure::components_of_luminance(light, at.map).gradient;
+}
+
 }  // namespace
 
 Variables searched(const studio::Studio& studio, const Variables& all, const Goal& goal) {
   return is_ideal(goal) ? variables_of(studio, all, IdealStage::shape, all.base) : all;
 }
 
-Prepared prepare(const studio::Studio& studio, const Layers& layers, const Goal& goal,
-                 const Variables& variables) {
-  Prepared prepared{layers, target_of(goal, layers.size()), {}};
-  prepared.map = map_for(layers, prepared.target);
-  if (!is_ideal(goal)) return prepared;
+Sizes prepare(const studio::Studio& studio, const Goal& goal, const Variables& variables,
+              const Layers& small, const Layers& middle, const Layers& full) {
+  Sizes sizes{prepared(small, goal), prepared(middle, goal), prepared(full, goal)};
+  if (!is_ideal(goal)) return sizes;
   const Variables shape = searched(studio, variables, goal);
-  prepared.target.ideal = attainable_targets(setting_of(studio, prepared, shape, Accuracy::cached));
-  return prepared;
+  sizes.small.target.ideal =
+      attainable_targets(setting_of(studio, sizes.small, shape, Accuracy::cached));
+  const double there = placed_gradient(studio, sizes.small, shape);
+  for (Prepared* each : {&sizes.middle, &sizes.full}) {
+    each->target.ideal = sizes.small.target.ideal;
+    // The gradient is per pixel: what the same light shows at the other size tells the scale.
+    const double here = placed_gradient(studio, *each, shape);
+    if (there > 0) each->target.ideal.gradient *= here / there;
+  }
+  return sizes;
 }
 
-studio::Rig completed(const studio::Studio& studio, const Prepared& full, const Variables& all,
+studio::Rig completed(const studio::Studio& studio, const Sizes& sizes, const Variables& all,
                       const studio::Rig& placements, bool may_move_back, Watch& watch) {
+  const Prepared& full = sizes.full;
   if (full.target.kind != Target::Kind::ideal) {
     watch.begin("colour", 0);
     const Variables lamps = still(all, placements);
@@ -98,7 +122,7 @@ studio::Rig completed(const studio::Studio& studio, const Prepared& full, const 
   const Setting first = setting_of(studio, full, shape, Accuracy::exact);
   studio::Rig rig = with_flash_steps(first, with_solved_levels(first, shape.base));
   const Variables lamps = still(all, rig);
-  const Setting after = setting_of(studio, full, lamps, Accuracy::cached);
+  const Setting after = setting_of(studio, sizes.middle, lamps, Accuracy::cached);
   rig = with_back_lights(after, std::move(rig), may_move_back);
   return with_background_lights(after, std::move(rig));
 }

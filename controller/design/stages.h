@@ -13,16 +13,20 @@ struct Prepared {
   Target target;
   measure::PixelMap map;
 };
-/// For ideal goals the scene is probed for what it can show.
-Prepared prepare(const studio::Studio& studio, const Layers& layers, const Goal& goal,
-                 const Variables& variables);
+/// Small to search on, middle to polish on, full to end on.
+struct Sizes {
+  Prepared small, middle, full;
+};
+/// For ideal goals the scene is probed, on the small picture, for what it can show.
+Sizes prepare(const studio::Studio& studio, const Goal& goal, const Variables& variables,
+              const Layers& small, const Layers& middle, const Layers& full);
 
 /// The lamps that the outer search moves: all of them, in ideal those of stage one.
 Variables searched(const studio::Studio& studio, const Variables& all, const Goal& goal);
 
 /// A rig whose placements are settled: levels, back and background lights, colours, flash steps.
 /// `may_move_back`: ideal's stage two may choose the back light's place.
-studio::Rig completed(const studio::Studio& studio, const Prepared& full, const Variables& all,
+studio::Rig completed(const studio::Studio& studio, const Sizes& sizes, const Variables& all,
                       const studio::Rig& placements, bool may_move_back, Watch& watch);
 
 /// The variables and the setting that a completed rig is judged with.

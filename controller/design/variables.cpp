@@ -127,8 +127,12 @@ core::Problems problems_of(const studio::Studio& studio, const Options& options)
          "no optimiser is called \"" + options.optimiser + "\"",
          (near.empty() ? "" : "did you mean \"" + near + "\"? ") + "there are: " + list});
   }
-  if (options.search_size.pixels() == 0 || options.full_size.pixels() == 0)
-    problems.push_back({{}, "a design needs a picture size above 0", "ask for 128 or 256 pixels"});
+  for (const core::Size size : {options.search_size, options.polish_size, options.full_size})
+    if (size.width != size.height || size.width < 8 || (size.width & (size.width - 1)) != 0)
+      problems.push_back({{},
+                          "a design works on squares of 8, 16, 32 … pixels, not " +
+                              std::to_string(size.width) + " x " + std::to_string(size.height),
+                          "ask for 64, 128 or 256"});
   if (options.start && options.start->states.size() != studio.fixtures.size())
     problems.push_back({{},
                         "the starting look has " + std::to_string(options.start->states.size()) +

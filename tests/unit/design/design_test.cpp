@@ -28,7 +28,7 @@ studio::Studio two_lamps() {
 
 Options quick() {
   Options options;
-  options.search_size = kSmall;
+  options.search_size = options.polish_size = kSmall;
   options.full_size = kSmall;
   options.trials = 500;
   options.threads = 1;

@@ -116,7 +116,7 @@ TEST(IdealStages, AttainableTargetsAreAboveWhatAnyLitPictureOfTheKeyShows) {
 TEST(IdealDesign, LightsTheShapeWithoutAnExemplar) {
   const studio::Studio studio = four_lamps();
   Options options;
-  options.search_size = options.full_size = kSize;
+  options.search_size = options.polish_size = options.full_size = kSize;
   options.trials = 120;
   options.threads = 2;
   const auto look = design(studio, support::AnalyticSource(studio), IdealGoal{}, options);

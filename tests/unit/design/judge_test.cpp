@@ -29,7 +29,7 @@ core::Picture lit_by_full(double candela) {
 
 Look level_only(const studio::Studio& studio, const Goal& goal, bool advise = false) {
   Options options;
-  options.search_size = options.full_size = kSize;
+  options.search_size = options.polish_size = options.full_size = kSize;
   options.move_stands = false;
   options.advise_exposure = advise;
   auto look = design(studio, support::AnalyticSource(studio), goal, options);
