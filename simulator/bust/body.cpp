@@ -61,7 +61,7 @@ double neck_and_shoulders(Vec3 seamed) {
   // The halves of the trunk meet more broadly than those of the face.
   const Vec3 p{std::sqrt(seamed.x * seamed.x + 2.0) - std::sqrt(2.0), seamed.y, seamed.z};
   double d = limb(p, {0, -1.8, -5.5}, {0, -3.8, -19}, 4.7, 5.3);
-  d = joined(d, limb(p, {4.6, -2.0, -5.0}, {0.7, 1.5, -17.6}, 0.9, 0.9), 1.6);   // the long muscle
+  d = joined(d, limb(p, {4.6, -2.0, -5.0}, {0.7, 1.0, -17.6}, 0.9, 0.8), 2.4);   // the long muscle
   d = joined(d, ellipsoid(p, {0, 2.2, -12.6}, {0.8, 1.1, 1.5}), 1.5);            // larynx
   d = joined(d, limb(p, {2.0, -5.2, -13}, {14.0, -4.8, -20.5}, 2.6, 2.8), 5.0);  // trapezius
   d = joined(d, ellipsoid(p, {0, -4.0, -42}, {15.0, 8.8, 26}), 5.0);             // trunk
@@ -69,8 +69,8 @@ double neck_and_shoulders(Vec3 seamed) {
   d = joined(d, limb(p, {16.9, -4.4, -25}, {18.2, -3.8, -52}, 4.4, 4.0), 3.0);   // arm
   d = joined(d, ellipsoid(p, {3.5, -0.5, -22.5}, {9.0, 3.0, 6.0}), 4.0);         // upper chest
   d = joined(d, ellipsoid(p, {6.4, 2.0, -29}, {6.5, 3.2, 6.5}), 5.0);
-  d = joined(d, limb(p, {0.6, 1.5, -18.2}, {7.5, 0.8, -18.6}, 0.6, 0.6), 3.0);  // collar bone
-  d = joined(d, limb(p, {7.5, 0.8, -18.6}, {14.0, -2.8, -19.4}, 0.6, 0.9), 3.0);
+  d = joined(d, limb(p, {0.3, 1.0, -18.0}, {7.5, 0.6, -18.6}, 0.5, 0.6), 4.0);  // collar bone
+  d = joined(d, limb(p, {7.5, 0.6, -18.6}, {14.0, -2.8, -19.4}, 0.6, 0.9), 4.0);
   return d;
 }
 
