@@ -22,15 +22,10 @@ constexpr core::Size kMeasured{256, 256};
 struct Wish {
   std::vector<std::string> only;
   fs::path out;
-  bool bust = false, words_only = false;
+  bool bust = false;
   core::Size size{0, 0};
   TraceOptions trace;
 };
-
-/// The key's cast shadows, which weigh in mean and variance.
-core::Plane lit_by_key(const render::View& view, const twin::Scene& scene) {
-  return render::visibility(view, scene.lights.front());
-}
 
 std::vector<std::string> recipes_in(const fs::path& folder) {
   std::vector<std::string> names;
@@ -39,11 +34,6 @@ std::vector<std::string> recipes_in(const fs::path& folder) {
     if (fs::exists(entry.path() / "recipe.yaml")) names.push_back(entry.path().filename().string());
   std::sort(names.begin(), names.end());
   return names;
-}
-
-ports::Exit refused(const core::Problems& problems, ports::World& world) {
-  world.err << core::to_string(problems) << '\n';
-  return ports::Exit::input_has_problems;
 }
 
 core::Result<core::Done> write_text(const fs::path& file, const std::string& text) {
@@ -99,13 +89,36 @@ core::Result<core::Done> draw_one(const std::string& name, const Wish& wish, por
   return write_mood(wish.out / name, *recipe, mood);
 }
 
-core::Result<core::Done> draw_bust(const Wish& wish, ports::World& world) {
-  const studio::Folders folders{world.config_folder};
+core::Result<core::Done> draw_bust(ports::World& world) {
   const TriangleMesh mesh = bust_mesh();
-  const fs::path file = folders.subjects() / "bust.ply";
   world.err << "bust: " << mesh.triangles.size() << " triangles\n";
-  (void)wish;
-  return write_ply(file, mesh);
+  return write_ply(studio::Folders{world.config_folder}.subjects() / "bust.ply", mesh);
+}
+
+core::Problem no_such_mood(const std::string& name, const std::vector<std::string>& all,
+                           const fs::path& folder) {
+  const std::string near = core::nearest_name(name, all);
+  return {{},
+          "there is no recipe for a mood called '" + name + "'",
+          near.empty() ? "the recipes are in " + folder.string() : "did you mean '" + near + "'?"};
+}
+
+core::Problems draw_moods(Wish wish, ports::World& world) {
+  const fs::path moods = studio::Folders{world.config_folder}.moods();
+  const std::vector<std::string> all = recipes_in(moods);
+  if (wish.out.empty()) wish.out = moods;
+  if (wish.only.empty()) wish.only = all;
+  core::Problems problems;
+  for (const std::string& name : wish.only) {
+    if (std::find(all.begin(), all.end(), name) == all.end()) {
+      problems.push_back(no_such_mood(name, all, moods));
+      continue;
+    }
+    const auto done = draw_one(name, wish, world);
+    problems.insert(problems.end(), done.problems().begin(), done.problems().end());
+    if (world.stop) break;
+  }
+  return problems;
 }
 
 void declare(CLI::App& app, Wish& wish, std::vector<int>& size) {
@@ -137,7 +150,7 @@ DrawnMood drawn(const StudioSet& set, core::Size size, const TraceOptions& optio
   const Traced measured = trace(*tracer, set.scene, camera, kMeasured, clean);
   const render::View view = render::see(tracer, camera, kMeasured);
   const measure::PixelMap map = measure::pixel_map(core::planes(view.buffer));
-  const core::Plane lit = lit_by_key(view, set.scene);
+  const core::Plane lit = render::visibility(view, set.scene.lights[set.key]);
   const measure::Components components =
       measure::components(measure::working_scalar(core::luminance(measured.picture)), map, &lit);
   return {core::encoded(picture.picture), measure::targets_of(components, true), picture.noise};
@@ -147,7 +160,7 @@ ports::Exit run_draw(const std::vector<std::string>& arguments, ports::World& wo
   CLI::App app{"Draws the shipped moods from their recipes (config/moods/*/recipe.yaml)",
                "chiaro-draw"};
   Wish wish;
-  wish.trace.samples = 128;
+  wish.trace.samples = 96;
   std::vector<int> size;
   declare(app, wish, size);
   try {
@@ -161,29 +174,14 @@ ports::Exit run_draw(const std::vector<std::string>& arguments, ports::World& wo
     return ports::Exit::usage;
   }
   if (size.size() == 2) wish.size = {size[0], size[1]};
-  if (wish.bust) {
-    const auto made = draw_bust(wish, world);
-    return made ? ports::Exit::done : refused(made.problems(), world);
-  }
-  const fs::path moods = world.config_folder / "moods";
-  if (wish.out.empty()) wish.out = moods;
-  const std::vector<std::string> all = recipes_in(moods);
-  if (wish.only.empty()) wish.only = all;
   core::Problems problems;
-  for (const std::string& name : wish.only) {
-    if (std::find(all.begin(), all.end(), name) == all.end()) {
-      const std::string near = core::nearest_name(name, all);
-      problems.push_back(
-          {{},
-           "there is no recipe for a mood called '" + name + "'",
-           near.empty() ? "the recipes are in " + moods.string() : "did you mean '" + near + "'?"});
-      continue;
-    }
-    const auto done = draw_one(name, wish, world);
-    problems.insert(problems.end(), done.problems().begin(), done.problems().end());
-    if (world.stop) break;
-  }
-  return problems.empty() ? ports::Exit::done : refused(problems, world);
+  if (wish.bust)
+    problems = draw_bust(world).problems();
+  else
+    problems = draw_moods(wish, world);
+  if (problems.empty()) return ports::Exit::done;
+  world.err << core::to_string(problems) << '\n';
+  return ports::Exit::input_has_problems;
 }
 
 }  // namespace chiaro::simulator

@@ -48,9 +48,10 @@ Aimed aimed(const RecipeLamp& lamp, const core::AimFrame& frame, core::Kelvin ba
   return out;
 }
 
-double key_lux(const Recipe& recipe) {
-  for (const RecipeLamp& lamp : recipe.lamps)
-    if (lamp.role == studio::Role::key && lamp.lux) return *lamp.lux;
+/// The first key; the first lamp where none is called so.
+std::size_t key_of(const Recipe& recipe) {
+  for (std::size_t i = 0; i < recipe.lamps.size(); ++i)
+    if (recipe.lamps[i].role == studio::Role::key && recipe.lamps[i].lux) return i;
   return 0;
 }
 
@@ -91,6 +92,7 @@ core::Result<StudioSet> set_up(const Recipe& recipe, const studio::Folders& fold
   auto loaded = studio::load_studio(recipe.studio, folders);
   if (!loaded) return loaded.problems();
   StudioSet set;
+  set.key = key_of(recipe);
   set.studio = std::move(loaded->studio);
   if (core::Problems problems = dress(set.studio, recipe); !problems.empty()) return problems;
   auto geometry = twin::build_geometry(set.studio, cache);
@@ -99,7 +101,7 @@ core::Result<StudioSet> set_up(const Recipe& recipe, const studio::Folders& fold
   for (const RecipeLamp& lamp : recipe.lamps) {
     Aimed lit = aimed(lamp, (*geometry)->aim, set.studio.exposure.white_balance);
     const double lux =
-        lamp.lux ? *lamp.lux : key_lux(recipe) / core::from_stops(*lamp.stops_below_key);
+        lamp.lux ? *lamp.lux : *recipe.lamps[set.key].lux / core::from_stops(*lamp.stops_below_key);
     lit.light.candela = candela_for(lit.light, lit.target, lux);
     lit.light.fixture = set.scene.lights.size();
     set.scene.lights.push_back(lit.light);

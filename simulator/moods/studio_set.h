@@ -13,6 +13,7 @@ namespace chiaro::simulator {
 struct StudioSet {
   studio::Studio studio;  ///< without fixtures: the recipe's lamps are in `scene`
   twin::Scene scene;      ///< lights in the recipe's order, levels all 1
+  std::size_t key = 0;    ///< whose cast shadows count as shadow
 };
 
 /// `cache`: for the prepared mesh, empty = none.
