@@ -18,6 +18,7 @@ Watch::Watch(std::unique_ptr<ports::Camera> camera, ports::Clock& clock, const P
       clock_(clock),
       pace_(pace),
       seen_(std::move(seen)),
+      period_(pace.period),
       thread_([this] { run(); }) {}
 
 Watch::~Watch() {
@@ -62,7 +63,7 @@ ports::Duration Watch::take(core::Result<ports::CameraFrame> grabbed) {
     frame = newest_;
   }
   seen_(frame);
-  return pace_.period;
+  return period_;
 }
 
 }  // namespace chiaro::camera

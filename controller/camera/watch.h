@@ -42,6 +42,8 @@ class Watch {
 
   Frame newest() const;
   Report report() const;
+  /// From the next frame on: slower while nobody looks or the processor is wanted elsewhere.
+  void set_period(ports::Duration period) { period_ = period; }
 
  private:
   void run();
@@ -56,6 +58,7 @@ class Watch {
   Frame newest_;
   Report report_;
   ports::Duration pause_{};
+  std::atomic<ports::Duration> period_;
   std::atomic<bool> stop_{false};
   std::thread thread_;
 };

@@ -138,7 +138,7 @@ export function dark() {
 }
 
 /** Serves until closed. `requests` remembers every click that reached it. */
-export async function mockDaemon(web, state) {
+export async function mockDaemon(web, state, port = 0) {
   const requests = [];
   const answers = new Map();
   let now = state;
@@ -176,10 +176,18 @@ export async function mockDaemon(web, state) {
       client.send(event());
     }),
   );
-  await new Promise((ready) => server.listen(0, '127.0.0.1', ready));
+  await new Promise((ready) => server.listen(port, '127.0.0.1', ready));
   return {
     url: `http://127.0.0.1:${server.address().port}/`,
     requests,
+    /** The first click that `match` takes, now or later. */
+    async click(match) {
+      for (;;) {
+        const found = requests.find(match);
+        if (found) return found;
+        await new Promise((next) => setTimeout(next, 5));
+      }
+    },
     refuse: (route, status, error) => answers.set(route, { status, error }),
     tell(next) {
       now = next;

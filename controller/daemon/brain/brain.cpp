@@ -17,6 +17,9 @@ using Json = nlohmann::ordered_json;
 constexpr ports::Duration kAdoptionPatience = std::chrono::milliseconds(1500);
 constexpr ports::Duration kRenewal = std::chrono::milliseconds(100);
 constexpr ports::Duration kCounters = std::chrono::seconds(1);
+/// Pictures of a camera: often while somebody looks, seldom while nobody does or a design runs.
+constexpr ports::Duration kWatched = std::chrono::milliseconds(125),
+                          kUnwatched = std::chrono::seconds(1);
 constexpr int kJpegQuality = 85;
 
 panel::Refusal not_taken() {
@@ -137,6 +140,7 @@ void Brain::tick(ports::TimePoint now) {
   if (now - last_renewal_ < kRenewal && !dirty_) return;
   last_renewal_ = now;
   tell_progress();
+  pace_cameras();
   renew_state();
   const std::string telling = panel::state_to_json(state_, false);
   if (telling == told_ && now - last_counters_ < kCounters) return;
@@ -209,13 +213,21 @@ void Brain::tell_progress() {
   if (news) events_.push_back(R"({"type":"design","design":)" + panel::job_to_json(view) + "}");
 }
 
+void Brain::pace_cameras() {
+  const bool designing = job_ && job_->view.status <= panel::JobStatus::running;
+  const ports::Duration period = watchers_ > 0 && !designing ? kWatched : kUnwatched;
+  for (auto& [name, eye] : eyes_)
+    if (eye->watch) eye->watch->set_period(period);
+}
+
 std::vector<std::string> Brain::events() {
   std::vector<std::string> told(events_.begin(), events_.end());
   events_.clear();
   return told;
 }
 
-void Brain::count_traffic(std::uint64_t requests, std::size_t listeners) {
+void Brain::count_traffic(std::uint64_t requests, std::size_t listeners, std::size_t watchers) {
+  watchers_ = watchers;
   counters_.requests = requests;
   counters_.event_listeners = listeners;
 }

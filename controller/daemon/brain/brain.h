@@ -50,7 +50,7 @@ class Brain final : public panel::Brain {
       std::function<void(const std::string&, std::shared_ptr<const std::string>)> f) {
     show_ = std::move(f);
   }
-  void count_traffic(std::uint64_t requests, std::size_t listeners);
+  void count_traffic(std::uint64_t requests, std::size_t listeners, std::size_t watchers);
 
  private:
   struct Live {
@@ -118,6 +118,7 @@ class Brain final : public panel::Brain {
   void speak(ports::TimePoint now);
   void answer_waiting(ports::TimePoint now);
   void tell_progress();
+  void pace_cameras();
 
   ports::World& world_;
   Post post_;
@@ -143,6 +144,7 @@ class Brain final : public panel::Brain {
   std::function<void(const std::string&, std::shared_ptr<const std::string>)> show_;
   std::vector<WaitingForDark> waiting_;
 
+  std::size_t watchers_ = 0;
   panel::State state_;
   panel::Counters counters_;
   std::string told_;  ///< the last state told, without counters

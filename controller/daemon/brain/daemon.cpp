@@ -55,7 +55,7 @@ void print(const core::Problems& problems, std::ostream& err) {
 /// One turn: world, hand, listeners.
 void turn(ports::World& world, panel::Loop& loop, Brain& brain, panel::Server& server) {
   if (world.stop) return loop.stop();
-  brain.count_traffic(server.requests(), server.listeners());
+  brain.count_traffic(server.requests(), server.listeners(), server.watchers());
   brain.tick(world.clock.now());
   for (const std::string& event : brain.events()) server.tell(event);
 }

@@ -92,6 +92,7 @@ void Server::show(const std::string& camera, std::shared_ptr<const std::string> 
 }
 
 std::size_t Server::listeners() const { return state_->events.size(); }
+std::size_t Server::watchers() const { return state_->streams.size(); }
 std::uint64_t Server::requests() const { return state_->requests; }
 
 std::string state_event(const panel::State& state) {

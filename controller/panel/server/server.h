@@ -39,6 +39,8 @@ class Server {
   /// The newest picture of a camera, as JPEG, to everyone who watches it. Slow watchers skip.
   void show(const std::string& camera, std::shared_ptr<const std::string> jpeg);
   std::size_t listeners() const;
+  /// Who watches a camera's stream now.
+  std::size_t watchers() const;
   std::uint64_t requests() const;
 
   struct State;
