@@ -43,6 +43,11 @@ std::optional<ports::Exit> parse(std::span<const std::string> words, ports::Worl
   } catch (const CLI::ParseError& error) {
     return app.exit(error, world.out, world.err) == 0 ? ports::Exit::done : ports::Exit::usage;
   }
+  if (arguments.server.token.empty() && !panel::is_loopback(arguments.server.address)) {
+    world.err << "chiarod: listening on " << arguments.server.address
+              << " lets others reach the lights (give a --token of your choice as well)\n";
+    return ports::Exit::usage;
+  }
   arguments.server.web = web.empty() ? web_folder(world.config_folder) : std::filesystem::path(web);
   return std::nullopt;
 }

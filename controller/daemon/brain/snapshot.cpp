@@ -104,7 +104,10 @@ std::optional<panel::LookView> Brain::live_view() const {
   view.remedy = look.placed_judgement.remedy;
   if (const auto ratio = design::key_fill_ratio(placements_->placed_studio(studio_), look.placed))
     view.ratio = ratio_in_words(*ratio);
-  if (sent_) view.fade = sent_->fade_progress[static_cast<std::size_t>(rig::Source::look)];
+  // Until the hand has seen this fade, what it reports is the end of the last one.
+  constexpr auto kLook = static_cast<std::size_t>(rig::Source::look);
+  const bool seen = sent_ && sent_->fade_id[kLook] >= console_->wanted().sources[kLook].fade_id;
+  if (sent_) view.fade = seen ? sent_->fade_progress[kLook] : 0;
   if (!live_->record.reference.empty())
     view.reference = fmt::format("/api/v1/looks/{}/reference", view.id);
   else if (!view.mood.empty())

@@ -95,6 +95,12 @@ std::size_t Server::listeners() const { return state_->events.size(); }
 std::size_t Server::watchers() const { return state_->streams.size(); }
 std::uint64_t Server::requests() const { return state_->requests; }
 
+bool is_loopback(const std::string& text) {
+  Code code;
+  const auto address = asio::ip::make_address(text, code);
+  return text == "localhost" || (!code && address.is_loopback());
+}
+
 std::string state_event(const panel::State& state) {
   return R"({"type":"state","state":)" + state_to_json(state) + "}";
 }

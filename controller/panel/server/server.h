@@ -50,6 +50,9 @@ class Server {
   std::unique_ptr<State> state_;
 };
 
+/// True for 127.x.x.x, ::1 and "localhost"; false for what is no address.
+bool is_loopback(const std::string& address);
+
 /// The message that tells a listener everything.
 std::string state_event(const panel::State& state);
 
