@@ -14,39 +14,27 @@ namespace {
 // The fit looks at 32 x 32 averages: colour of light varies slowly, and subjects differ in detail.
 constexpr core::Size kPatches{32, 32};
 constexpr double kDarkest = 0.004;  // display-linear; chroma below it is noise
-// Pull towards the present colour, relative to a lamp's own weight in the fit: decides only where
-// the picture does not.
-constexpr double kInertia = 0.002;
-constexpr int kColourSteps = 241;
+// Gauss-Newton on CCT, tint and drives; each step is held back by this share of the strongest
+// lamp's weight, so that a lamp which hardly shows keeps its colour.
+constexpr int kSteps = 8;
+constexpr double kInertia = 1e-3;
+// Tint is a correction: it moves only where CCT alone leaves something to do.
+constexpr double kTintInertia = 20;
+constexpr double kMiredStep = 2, kTintStep = 1;
 
-/// One thing a lamp can mix: an end of its CCT range, or one primary.
-struct Basis {
+double mired(double kelvin) { return 1e6 / kelvin; }
+
+/// One lamp that can mix colours. `neutral` is what it adds to the picture under light of (1, 1,
+/// 1).
+struct Mixer {
   std::size_t fixture = 0;
   core::FixtureState state;
-  core::Rgb light;        ///< as the camera sees it at drive 1
-  core::Picture columns;  ///< what it adds to the picture at drive 1, in patches
-  double start = 0;       ///< its share in the present colour, times the level
+  double light_kept = 0;  ///< luminance of its light, level included
+  core::Picture neutral;
+  std::vector<double> values;  ///< bicolour: mired, tint; mixed: level x drive of each primary
+  std::vector<core::Range> ranges;
+  std::vector<double> inertia;
 };
-
-std::vector<core::FixtureState> ends_of(const studio::Fixture& fixture,
-                                        const core::FixtureState& now) {
-  std::vector<core::FixtureState> ends;
-  const studio::Emitter& emitter = fixture.profile.emitter;
-  core::FixtureState state = now;
-  state.set(core::Dof::intensity, 1);
-  if (emitter.kind == studio::Emitter::Kind::bicolour && emitter.cct_range.width() > 0)
-    for (const double cct : {emitter.cct_range.least, emitter.cct_range.most}) {
-      state.set(core::Dof::cct, cct);
-      ends.push_back(state);
-    }
-  if (emitter.kind == studio::Emitter::Kind::mixed)
-    for (const studio::Primary& primary : emitter.primaries) {
-      for (const studio::Primary& other : emitter.primaries) state.set(other.dof, 0);
-      state.set(primary.dof, 1);
-      ends.push_back(state);
-    }
-  return ends;
-}
 
 void add(core::Picture& sum, double weight, const core::Picture& what) {
   const auto w = static_cast<float>(weight);
@@ -63,39 +51,6 @@ core::Picture lamp_picture(const Layers& layers, std::size_t fixture,
   layers.colour(fixture, state, accuracy, layer);
   add(layer.diffuse, 1, layer.specular);
   return std::move(layer.diffuse);
-}
-
-std::vector<Basis> bases_of(const Setting& setting, const studio::Rig& rig) {
-  std::vector<Basis> bases;
-  for (const std::size_t fixture : setting.variables.lit) {
-    const studio::Fixture& lamp = setting.studio.fixtures[fixture];
-    const double level = rig.states[fixture].get(core::Dof::intensity);
-    if (level <= 0) continue;
-    const auto ends = ends_of(lamp, rig.states[fixture]);
-    for (const auto& end : ends)
-      bases.push_back(
-          {fixture, end, studio::light_colour(lamp, end, setting.studio.exposure.white_balance),
-           core::resized(lamp_picture(setting.layers, fixture, end, setting.accuracy), kPatches),
-           level / static_cast<double>(ends.size())});
-  }
-  return bases;
-}
-
-/// What the mixing lamps do not give: ambient, held lamps and lamps of one colour.
-core::Picture the_rest(const Setting& setting, const studio::Rig& rig,
-                       const std::vector<Basis>& bases) {
-  core::Picture rest = core::resized(setting.layers.ambient(), kPatches);
-  for (std::size_t i = 0; i < rig.states.size(); ++i) {
-    const bool mixes = std::any_of(bases.begin(), bases.end(),
-                                   [&](const Basis& basis) { return basis.fixture == i; });
-    const double level = rig.states[i].get(core::Dof::intensity);
-    if (mixes || level <= 0 || !setting.studio.fixtures[i].controlled) continue;
-    core::FixtureState state = rig.states[i];
-    state.set(core::Dof::intensity, 1);
-    add(rest, level,
-        core::resized(lamp_picture(setting.layers, i, state, setting.accuracy), kPatches));
-  }
-  return rest;
 }
 
 /// The exemplar's chromaticity at our own luminance, and how much each patch counts.
@@ -121,30 +76,6 @@ Wanted wanted_colour(const Setting& setting, const studio::Rig& rig) {
   return wanted;
 }
 
-std::vector<double> solve_drives(const std::vector<Basis>& bases, const core::Picture& rest,
-                                 const Wanted& wanted) {
-  const std::size_t n = bases.size();
-  std::vector<double> matrix(n * n, 0), vector(n, 0);
-  for (const auto plane : {&core::Picture::red, &core::Picture::green, &core::Picture::blue}) {
-    std::vector<const core::Plane*> columns;
-    for (const Basis& basis : bases) columns.push_back(&(basis.columns.*plane));
-    const auto form =
-        measure::least_squares_form(columns, rest.*plane, wanted.colour.*plane, &wanted.weight);
-    for (std::size_t i = 0; i < n * n; ++i) matrix[i] += form.q_matrix[i];
-    for (std::size_t i = 0; i < n; ++i) vector[i] += form.q_vector[i];
-  }
-  std::vector<core::Range> bounds;
-  std::vector<double> start;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double pull = kInertia * matrix[i * n + i];
-    matrix[i * n + i] += pull;
-    vector[i] += pull * bases[i].start;
-    bounds.push_back({0, 8});
-    start.push_back(bases[i].start);
-  }
-  return optimise::bounded_least_squares(matrix, vector, bounds, start);
-}
-
 /// How far apart two lights are in colour, whatever their brightness.
 double colour_distance(core::Rgb a, core::Rgb b) {
   const double la = core::luminance(a), lb = core::luminance(b);
@@ -154,55 +85,178 @@ double colour_distance(core::Rgb a, core::Rgb b) {
   return std::hypot(aa - ba, ab - bb);
 }
 
-/// The CCT, and the tint where there is one, whose light is nearest to `light`.
-core::FixtureState nearest_white(const studio::Fixture& fixture, core::FixtureState state,
-                                 core::Rgb light, core::Kelvin balance) {
-  const studio::Emitter& emitter = fixture.profile.emitter;
-  const int tints = emitter.tint_range.width() > 0 ? 41 : 1;
-  core::FixtureState best = state;
-  double nearest = 1e9;
-  for (int t = 0; t < tints; ++t)
-    for (int c = 0; c < kColourSteps; ++c) {
-      // Even steps in mired, as the eye sees them.
-      const double share = static_cast<double>(c) / (kColourSteps - 1);
-      state.set(core::Dof::cct,
-                1 / ((1 - share) / emitter.cct_range.least + share / emitter.cct_range.most));
-      if (tints > 1)
-        state.set(core::Dof::tint,
-                  emitter.tint_range.least + emitter.tint_range.width() * t / (tints - 1));
-      const double far = colour_distance(studio::light_colour(fixture, state, balance), light);
-      if (far >= nearest) continue;
-      nearest = far;
-      best = state;
-    }
-  return best;
+bool mixes(const studio::Emitter& emitter) {
+  return emitter.kind == studio::Emitter::Kind::mixed ||
+         (emitter.kind == studio::Emitter::Kind::bicolour && emitter.cct_range.width() > 0);
 }
 
-/// Drives with the strongest at full, so that the lamp can still give all the light it has.
-core::FixtureState with_drives(const studio::Fixture& fixture, core::FixtureState state,
-                               std::span<const double> drives) {
-  const double most = *std::max_element(drives.begin(), drives.end());
+core::FixtureState with_values(const studio::Fixture& fixture, core::FixtureState state,
+                               std::span<const double> values) {
+  const studio::Emitter& emitter = fixture.profile.emitter;
+  if (emitter.kind == studio::Emitter::Kind::bicolour) {
+    state.set(core::Dof::cct, mired(values[0]));
+    if (values.size() > 1) state.set(core::Dof::tint, values[1]);
+    return state;
+  }
+  // The strongest drive at full, so that the lamp can still give all the light it has.
+  const double most = *std::max_element(values.begin(), values.end());
   if (most <= 0) return state;
-  for (std::size_t p = 0; p < drives.size(); ++p)
-    state.set(fixture.profile.emitter.primaries[p].dof, drives[p] / most);
+  for (std::size_t p = 0; p < values.size(); ++p)
+    state.set(emitter.primaries[p].dof, values[p] / most);
   return state;
 }
 
-core::FixtureState with_colour(const Setting& setting, const studio::Fixture& fixture,
-                               const core::FixtureState& now, std::span<const Basis> bases,
-                               std::span<const double> drives) {
+/// The lamp's light, level included. A bicolour lamp keeps its luminance whatever its CCT.
+core::Rgb light_of(const Setting& setting, const Mixer& mixer, std::span<const double> values) {
+  const studio::Fixture& fixture = setting.studio.fixtures[mixer.fixture];
+  const core::Rgb light = studio::light_colour(fixture, with_values(fixture, mixer.state, values),
+                                               setting.studio.exposure.white_balance);
+  if (fixture.profile.emitter.kind == studio::Emitter::Kind::mixed)
+    return *std::max_element(values.begin(), values.end()) * light;
+  const double luminance = core::luminance(light);
+  return luminance > 0 ? (mixer.light_kept / luminance) * light : light;
+}
+
+core::Picture tinted(const core::Picture& neutral, core::Rgb light) {
+  core::Picture result(neutral.size());
+  for (std::size_t i = 0; i < result.red.values.size(); ++i) {
+    result.red.values[i] = static_cast<float>(light.r) * neutral.red.values[i];
+    result.green.values[i] = static_cast<float>(light.g) * neutral.green.values[i];
+    result.blue.values[i] = static_cast<float>(light.b) * neutral.blue.values[i];
+  }
+  return result;
+}
+
+core::Picture patches_of(const Setting& setting, std::size_t fixture, core::FixtureState state) {
+  state.set(core::Dof::intensity, 1);
+  return core::resized(lamp_picture(setting.layers, fixture, state, setting.accuracy), kPatches);
+}
+
+/// A colour in which every channel shows, so that dividing by it is safe.
+core::FixtureState white_state(const studio::Fixture& fixture, core::FixtureState state) {
+  for (const studio::Primary& primary : fixture.profile.emitter.primaries)
+    state.set(primary.dof, 1);
+  return state;
+}
+
+void add_bicolour_values(const studio::Emitter& emitter, Mixer& mixer) {
+  const core::Range range{mired(emitter.cct_range.most), mired(emitter.cct_range.least)};
+  mixer.values = {range.clamp(mired(mixer.state.get(core::Dof::cct, emitter.cct.value)))};
+  mixer.ranges = {range};
+  mixer.inertia = {1};
+  if (emitter.tint_range.width() <= 0) return;
+  mixer.values.push_back(emitter.tint_range.clamp(mixer.state.get(core::Dof::tint)));
+  mixer.ranges.push_back(emitter.tint_range);
+  mixer.inertia.push_back(kTintInertia);
+}
+
+void add_mixed_values(const studio::Emitter& emitter, double level, Mixer& mixer) {
+  for (const studio::Primary& primary : emitter.primaries) {
+    mixer.values.push_back(level * mixer.state.get(primary.dof, 1));
+    mixer.ranges.push_back({0, 8});
+    mixer.inertia.push_back(1);
+  }
+}
+
+std::vector<Mixer> mixers_of(const Setting& setting, const studio::Rig& rig) {
+  std::vector<Mixer> mixers;
   const core::Kelvin balance = setting.studio.exposure.white_balance;
-  core::Rgb light;
-  for (std::size_t b = 0; b < bases.size(); ++b) light = light + drives[b] * bases[b].light;
-  if (core::luminance(light) <= 0) return now;
-  core::FixtureState next = fixture.profile.emitter.kind == studio::Emitter::Kind::bicolour
-                                ? nearest_white(fixture, now, light, balance)
-                                : with_drives(fixture, now, drives);
-  const double before = core::luminance(studio::light_colour(fixture, now, balance));
-  const double after = core::luminance(studio::light_colour(fixture, next, balance));
-  const double level = now.get(core::Dof::intensity) * (after > 0 ? before / after : 1);
-  next.set(core::Dof::intensity, std::min(level, fixture.limits.most));
-  return next;
+  for (const std::size_t fixture : setting.variables.lit) {
+    const studio::Fixture& lamp = setting.studio.fixtures[fixture];
+    const double level = rig.states[fixture].get(core::Dof::intensity);
+    if (level <= 0 || !mixes(lamp.profile.emitter)) continue;
+    Mixer mixer{fixture, rig.states[fixture], 0, {}, {}, {}, {}};
+    mixer.light_kept = level * core::luminance(studio::light_colour(lamp, mixer.state, balance));
+    const core::FixtureState white = white_state(lamp, mixer.state);
+    const core::Rgb light = studio::light_colour(lamp, white, balance);
+    const auto inverse = [](double channel) { return channel > 1e-6 ? 1 / channel : 0; };
+    mixer.neutral = tinted(patches_of(setting, fixture, white),
+                           {inverse(light.r), inverse(light.g), inverse(light.b)});
+    if (lamp.profile.emitter.kind == studio::Emitter::Kind::bicolour)
+      add_bicolour_values(lamp.profile.emitter, mixer);
+    else
+      add_mixed_values(lamp.profile.emitter, level, mixer);
+    mixers.push_back(std::move(mixer));
+  }
+  return mixers;
+}
+
+/// What the mixing lamps do not give: ambient, held lamps and lamps of one colour.
+core::Picture the_rest(const Setting& setting, const studio::Rig& rig,
+                       const std::vector<Mixer>& mixers) {
+  core::Picture rest = core::resized(setting.layers.ambient(), kPatches);
+  for (std::size_t i = 0; i < rig.states.size(); ++i) {
+    const bool mixing = std::any_of(mixers.begin(), mixers.end(),
+                                    [&](const Mixer& mixer) { return mixer.fixture == i; });
+    const double level = rig.states[i].get(core::Dof::intensity);
+    if (mixing || level <= 0 || !setting.studio.fixtures[i].controlled) continue;
+    add(rest, level, patches_of(setting, i, rig.states[i]));
+  }
+  return rest;
+}
+
+/// How the picture changes with one value of one lamp, by central difference.
+core::Picture slope(const Setting& setting, const Mixer& mixer, std::size_t value) {
+  const bool bicolour = setting.studio.fixtures[mixer.fixture].profile.emitter.kind ==
+                        studio::Emitter::Kind::bicolour;
+  const double step = !bicolour ? 1e-3 : value == 0 ? kMiredStep : kTintStep;
+  std::vector<double> values = mixer.values;
+  values[value] = mixer.ranges[value].clamp(mixer.values[value] + step);
+  const double above = values[value];
+  const core::Rgb up = light_of(setting, mixer, values);
+  values[value] = mixer.ranges[value].clamp(mixer.values[value] - step);
+  const core::Rgb down = light_of(setting, mixer, values);
+  return tinted(mixer.neutral, (1 / (above - values[value])) * (up + -1.0 * down));
+}
+
+/// One Gauss-Newton step of every lamp's values towards the wanted chroma.
+void step(const Setting& setting, const core::Picture& rest, const Wanted& wanted,
+          std::vector<Mixer>& mixers) {
+  core::Picture now = rest;
+  std::vector<core::Picture> slopes;
+  std::vector<core::Range> bounds;
+  std::vector<double> inertia;
+  for (const Mixer& mixer : mixers) {
+    add(now, 1, tinted(mixer.neutral, light_of(setting, mixer, mixer.values)));
+    for (std::size_t v = 0; v < mixer.values.size(); ++v) {
+      slopes.push_back(slope(setting, mixer, v));
+      bounds.push_back(
+          {mixer.ranges[v].least - mixer.values[v], mixer.ranges[v].most - mixer.values[v]});
+      inertia.push_back(mixer.inertia[v]);
+    }
+  }
+  const std::size_t n = slopes.size();
+  std::vector<double> matrix(n * n, 0), vector(n, 0);
+  for (const auto plane : {&core::Picture::red, &core::Picture::green, &core::Picture::blue}) {
+    std::vector<const core::Plane*> columns;
+    for (const core::Picture& each : slopes) columns.push_back(&(each.*plane));
+    const auto form =
+        measure::least_squares_form(columns, now.*plane, wanted.colour.*plane, &wanted.weight);
+    for (std::size_t i = 0; i < n * n; ++i) matrix[i] += form.q_matrix[i];
+    for (std::size_t i = 0; i < n; ++i) vector[i] += form.q_vector[i];
+  }
+  // Values differ in unit: weights are compared over each value's whole range.
+  double strongest = 0;
+  const auto width = [&](std::size_t i) { return bounds[i].most - bounds[i].least; };
+  for (std::size_t i = 0; i < n; ++i)
+    strongest = std::max(strongest, matrix[i * n + i] * width(i) * width(i));
+  for (std::size_t i = 0; i < n; ++i)
+    matrix[i * n + i] += kInertia * inertia[i] * strongest / (width(i) * width(i));
+  const auto change = optimise::bounded_least_squares(matrix, vector, bounds);
+  std::size_t i = 0;
+  for (Mixer& mixer : mixers)
+    for (std::size_t v = 0; v < mixer.values.size(); ++v)
+      mixer.values[v] = mixer.ranges[v].clamp(mixer.values[v] + change[i++]);
+}
+
+core::FixtureState coloured(const Setting& setting, const Mixer& mixer) {
+  const studio::Fixture& fixture = setting.studio.fixtures[mixer.fixture];
+  core::FixtureState state = with_values(fixture, mixer.state, mixer.values);
+  const double light =
+      core::luminance(studio::light_colour(fixture, state, setting.studio.exposure.white_balance));
+  if (light <= 0) return mixer.state;
+  state.set(core::Dof::intensity, std::min(mixer.light_kept / light, fixture.limits.most));
+  return state;
 }
 
 }  // namespace
@@ -222,22 +276,14 @@ core::Picture predicted(const studio::Studio& studio, const Layers& layers, cons
 
 studio::Rig with_colours(const Setting& setting, const studio::Rig& rig) {
   if (setting.target.kind == Target::Kind::ideal || !setting.target.coloured) return rig;
-  const auto bases = bases_of(setting, rig);
-  if (bases.empty()) return rig;
-  const auto drives =
-      solve_drives(bases, the_rest(setting, rig, bases), wanted_colour(setting, rig));
-  studio::Rig coloured = rig;
-  for (std::size_t first = 0; first < bases.size();) {
-    const std::size_t fixture = bases[first].fixture;
-    std::size_t last = first;
-    while (last < bases.size() && bases[last].fixture == fixture) ++last;
-    coloured.states[fixture] =
-        with_colour(setting, setting.studio.fixtures[fixture], rig.states[fixture],
-                    std::span(bases).subspan(first, last - first),
-                    std::span(drives).subspan(first, last - first));
-    first = last;
-  }
-  return coloured;
+  std::vector<Mixer> mixers = mixers_of(setting, rig);
+  if (mixers.empty()) return rig;
+  const core::Picture rest = the_rest(setting, rig, mixers);
+  const Wanted wanted = wanted_colour(setting, rig);
+  for (int i = 0; i < kSteps; ++i) step(setting, rest, wanted, mixers);
+  studio::Rig result = rig;
+  for (const Mixer& mixer : mixers) result.states[mixer.fixture] = coloured(setting, mixer);
+  return result;
 }
 
 std::optional<double> better_white_balance(const Target& target, const core::Picture& picture,

@@ -7,6 +7,7 @@
 #include "controller/design/colours.h"
 #include "controller/design/exposure.h"
 #include "controller/design/judge.h"
+#include "controller/design/roles.h"
 #include "controller/design/stages.h"
 #include "controller/design/words.h"
 
@@ -37,7 +38,8 @@ studio::Rig wanted_placements(const studio::Studio& studio, const Sizes& sizes, 
   const Prepared &small = sizes.small, &middle = sizes.middle;
   const Setting coarse{studio, small.layers, lamps, small.target, small.map, Accuracy::cached};
   const Setting fine{studio, middle.layers, lamps, middle.target, middle.map, Accuracy::cached};
-  const Found found = polish(fine, search(coarse, options, watch), options, watch);
+  const Found found = with_roles_kept(
+      fine, polish(fine, search(coarse, options, watch), options, watch), options, watch);
   if (std::isfinite(found.cost)) return lamps.rig(found.point);
   warnings.push_back("no allowed place was found for the lamps together: they stay where they are");
   return all.base;

@@ -145,7 +145,7 @@ bool has_background_lamp(const studio::Studio& studio) {
 }
 
 /// When no lamp is short: what else in the picture is far from the exemplar.
-std::string remedy_for_rest(const Setting& setting, const core::Plane& picture) {
+std::string remedy_for_rest(const Setting& setting, const core::Plane& picture, Verdict verdict) {
   const core::GeometryPlanes* planes = setting.layers.geometry();
   const core::Plane& wanted = setting.target.values;
   if (planes != nullptr && !wanted.empty()) {
@@ -166,6 +166,7 @@ std::string remedy_for_rest(const Setting& setting, const core::Plane& picture) 
       return "the background stays brighter than the reference: move the subject away from it, "
              "flag the lamps off it, or use a darker one";
   }
+  if (verdict == Verdict::near) return "";
   return "no placement of these lamps looks more like it: choose a reference whose subject and "
          "framing are nearer to yours, or let the stands go further";
 }
@@ -229,7 +230,7 @@ Judgement judge(const Setting& setting, Workspace& workspace, const studio::Rig&
   } else if (judgement.verdict != Verdict::reached) {
     core::Plane picture;
     mix(workspace.columns(rig), levels_of(setting.variables, rig), picture);
-    judgement.remedy = remedy_for_rest(setting, picture);
+    judgement.remedy = remedy_for_rest(setting, picture, judgement.verdict);
   }
   return judgement;
 }

@@ -6,6 +6,7 @@
 
 #include "controller/design/colours.h"
 #include "controller/design/ideal.h"
+#include "controller/design/roles.h"
 
 namespace chiaro::design {
 namespace {
@@ -63,10 +64,10 @@ studio::Rig with_flash_steps(const Setting& setting, studio::Rig rig) {
 }
 
 studio::Rig by_example(const Setting& setting, const studio::Rig& placements) {
-  const studio::Rig lit = with_solved_levels(setting, placements);
+  const studio::Rig lit = without_idle_lamps(setting, placements);
   const studio::Rig coloured = with_colours(setting, lit);
-  const studio::Rig solved = coloured == lit ? lit : with_solved_levels(setting, coloured);
-  return with_flash_steps(setting, solved);
+  if (coloured == lit) return with_flash_steps(setting, lit);
+  return with_flash_steps(setting, without_idle_lamps(setting, coloured));
 }
 
 Prepared prepared(const Layers& layers, const Goal& goal) {
@@ -114,7 +115,9 @@ studio::Rig completed(const studio::Studio& studio, const Sizes& sizes, const Va
   if (full.target.kind != Target::Kind::ideal) {
     watch.begin("colour", 0);
     const Variables lamps = still(all, placements);
-    return by_example(setting_of(studio, full, lamps, Accuracy::exact), placements);
+    const Setting setting = setting_of(studio, full, lamps, Accuracy::exact);
+    return with_dark_lamps_unmoved(setting, by_example(setting, placements),
+                                   studio::placed_rig(studio));
   }
   watch.begin("back light", 0);
   Variables shape = variables_of(studio, all, IdealStage::shape, placements);

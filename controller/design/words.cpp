@@ -123,24 +123,34 @@ std::vector<std::string> instructions(const studio::Studio& studio, const studio
   return result;
 }
 
+double lux_at_face(const studio::Studio& studio, const studio::Rig& rig, std::size_t fixture) {
+  const studio::Fixture& lamp = studio.fixtures[fixture];
+  const core::FixtureState& state = rig.states[fixture];
+  const core::AimFrame aim = estimated_aim(studio);
+  const double distance = core::distance(twin::pose(lamp, state, aim).position, aim.origin);
+  const double colour =
+      core::luminance(studio::light_colour(lamp, state, studio.exposure.white_balance));
+  return state.get(core::Dof::intensity) * colour * lamp.fitted_output().value /
+         std::max(distance * distance, 1e-6);
+}
+
 std::optional<double> key_fill_ratio(const studio::Studio& studio, const studio::Rig& rig) {
   double key = 0, fill = 0;
-  const core::AimFrame frame = estimated_aim(studio);
   for (std::size_t i = 0; i < studio.fixtures.size(); ++i) {
-    const studio::Fixture& fixture = studio.fixtures[i];
-    if (fixture.role != studio::Role::key && fixture.role != studio::Role::fill) continue;
-    const core::FixtureState& state = rig.states[i];
-    const core::AimFrame& aim = frame;
-    const double distance = core::distance(twin::pose(fixture, state, aim).position, aim.origin);
-    const double colour =
-        core::luminance(studio::light_colour(fixture, state, studio.exposure.white_balance));
-    const double lux = state.get(core::Dof::intensity) * colour * fixture.fitted_output().value /
-                       std::max(distance * distance, 1e-6);
-    (fixture.role == studio::Role::key ? key : fill) += lux;
+    if (studio.fixtures[i].role == studio::Role::key) key += lux_at_face(studio, rig, i);
+    if (studio.fixtures[i].role == studio::Role::fill) fill += lux_at_face(studio, rig, i);
   }
-  // A fill a thousand times weaker than the key is dark to any meter.
-  if (key <= 0 || fill <= key * 1e-3) return std::nullopt;
+  // A lamp a thousand times weaker than the other is dark to any meter.
+  if (key <= fill * 1e-3 || fill <= key * 1e-3) return std::nullopt;
   return key / fill;
+}
+
+std::string ratio_in_words(const studio::Studio& studio, const studio::Rig& rig) {
+  const auto ratio = key_fill_ratio(studio, rig);
+  if (!ratio) return "";
+  const double more = std::max(*ratio, 1 / *ratio);
+  return (*ratio >= 1 ? "key to fill " : "fill to key ") + number(more, more < 10 ? 1 : 0) +
+         ":1 (" + stops_in_words(std::log2(more)) + ")";
 }
 
 }  // namespace chiaro::design

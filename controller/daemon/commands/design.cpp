@@ -161,7 +161,7 @@ void print_lamps(const studio::Studio& studio, const studio::Rig& rig, std::ostr
       continue;
     }
     out << design::level_in_words(level);
-    if (level < 0.995) out << " (" << design::stops_in_words(std::log2(level)) << " below full)";
+    if (level < 0.89) out << " (" << design::stops_in_words(std::log2(level)) << " below full)";
     if (state.has(core::Dof::azimuth) && state.has(core::Dof::distance))
       out << ", "
           << design::place_in_words({state.get(core::Dof::azimuth), state.get(core::Dof::elevation),
@@ -177,9 +177,8 @@ void print_summary(const studio::Studio& studio, const design::Look& look, std::
       << per_cent(look.judgement.residual) << " % off\n";
   if (!look.judgement.remedy.empty()) out << "  " << look.judgement.remedy << "\n";
   print_lamps(studio, look.wanted, out);
-  if (const auto ratio = design::key_fill_ratio(studio, look.wanted))
-    out << "  key to fill " << design::number(*ratio, *ratio < 10 ? 1 : 0) << ":1 ("
-        << design::stops_in_words(std::log2(*ratio)) << ")\n";
+  if (const std::string ratio = design::ratio_in_words(studio, look.wanted); !ratio.empty())
+    out << "  " << ratio << "\n";
   if (!look.instructions.empty()) out << "By hand:\n";
   for (const std::string& line : look.instructions) out << "  " << line << "\n";
   if (!(look.placed == look.wanted))
