@@ -2,9 +2,12 @@
 // A contract over the folders: whatever is shipped loads, without a word of complaint.
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
+#include <iterator>
 
 #include "controller/studio/load.h"
+#include "controller/studio/profiles/profiles.h"
 
 namespace chiaro::studio {
 namespace {
@@ -41,6 +44,23 @@ TEST(ShippedStudios, EveryOneLoadsWithoutWarnings) {
     ++seen;
   }
   EXPECT_GE(seen, 1);
+}
+
+/// The first fenced example of a page.
+std::string example_in(const std::filesystem::path& page) {
+  std::ifstream in(page);
+  const std::string text((std::istreambuf_iterator<char>(in)), {});
+  const std::size_t begin = text.find("```yaml\n") + 8;
+  return text.substr(begin, text.find("```", begin) - begin);
+}
+
+TEST(ShippedPages, TheirExamplesLoad) {
+  const auto studio =
+      parse_studio(example_in(kShipped.studios() / "README.md"), kShipped.studios(), kShipped);
+  EXPECT_TRUE(studio.ok()) << core::to_string(studio.problems());
+  const auto profile = profiles::parse_profile(example_in(kShipped.fixtures() / "README.md"),
+                                               "maker/model-name", "README.md");
+  EXPECT_TRUE(profile.ok()) << core::to_string(profile.problems());
 }
 
 }  // namespace
