@@ -139,14 +139,24 @@ core::FixtureState white_state(const studio::Fixture& fixture, core::FixtureStat
   return state;
 }
 
-void add_bicolour_values(const studio::Emitter& emitter, Mixer& mixer) {
+/// As far as the lamp's mode and hands reach: a tint without a channel would show in the preview
+/// and never on the wire.
+core::Range tint_range(const studio::Fixture& fixture) {
+  for (const auto& [dof, range] : fixture.ranges())
+    if (dof == core::Dof::tint) return range;
+  return {};
+}
+
+void add_bicolour_values(const studio::Fixture& fixture, Mixer& mixer) {
+  const studio::Emitter& emitter = fixture.profile.emitter;
   const core::Range range{mired(emitter.cct_range.most), mired(emitter.cct_range.least)};
   mixer.values = {range.clamp(mired(mixer.state.get(core::Dof::cct, emitter.cct.value)))};
   mixer.ranges = {range};
   mixer.inertia = {1};
-  if (emitter.tint_range.width() <= 0) return;
-  mixer.values.push_back(emitter.tint_range.clamp(mixer.state.get(core::Dof::tint)));
-  mixer.ranges.push_back(emitter.tint_range);
+  const core::Range tint = tint_range(fixture);
+  if (tint.width() <= 0) return;
+  mixer.values.push_back(tint.clamp(mixer.state.get(core::Dof::tint)));
+  mixer.ranges.push_back(tint);
   mixer.inertia.push_back(kTintInertia);
 }
 
@@ -173,7 +183,7 @@ std::vector<Mixer> mixers_of(const Setting& setting, const studio::Rig& rig) {
     mixer.neutral = tinted(patches_of(setting, fixture, white),
                            {inverse(light.r), inverse(light.g), inverse(light.b)});
     if (lamp.profile.emitter.kind == studio::Emitter::Kind::bicolour)
-      add_bicolour_values(lamp.profile.emitter, mixer);
+      add_bicolour_values(lamp, mixer);
     else
       add_mixed_values(lamp.profile.emitter, level, mixer);
     mixers.push_back(std::move(mixer));

@@ -82,6 +82,21 @@ TEST(Colours, FindHiddenColourTemperatures) {
   EXPECT_NEAR(1e6 / solved.states[1].get(core::Dof::cct), 1e6 / 6300, 10);
 }
 
+TEST(Colours, AskForNoTintThatTheModeDoesNotCarry) {
+  Fit fit;
+  // The lamp could; its mode has no channel for it.
+  for (std::size_t lamp : {0u, 1u})
+    fit.studio.fixtures[lamp].profile.emitter.tint_range = {-10, 10};
+  fit.hidden.states[0].set(core::Dof::cct, 3200);
+  fit.hidden.states[0].set(core::Dof::tint, -8);
+  fit.match_luminance();
+  const studio::Rig solved =
+      fit.solved(support::photographed(fit.studio, fit.twin, fit.hidden, kSize));
+  EXPECT_LT(solved.states[0].get(core::Dof::cct), 4500);
+  EXPECT_EQ(solved.states[0].get(core::Dof::tint), 0);
+  EXPECT_EQ(solved.states[1].get(core::Dof::tint), 0);
+}
+
 TEST(Colours, FindHiddenDrivesOfAColouredLamp) {
   Fit fit;
   fit.hidden.states[2].set(core::Dof::red, 0.2);
