@@ -361,6 +361,22 @@ void AddGram(std::span<const float* const> rows, std::size_t n, double* gram) {
   }
 }
 
+float Sum(const float* values, std::size_t n) {
+  const D d;
+  const std::size_t lanes = hn::Lanes(d);
+  V a = hn::Zero(d), b = a, c = a, e = a;
+  std::size_t i = 0;
+  for (; i + 4 * lanes <= n; i += 4 * lanes) {
+    a = hn::Add(a, hn::LoadU(d, values + i));
+    b = hn::Add(b, hn::LoadU(d, values + i + lanes));
+    c = hn::Add(c, hn::LoadU(d, values + i + 2 * lanes));
+    e = hn::Add(e, hn::LoadU(d, values + i + 3 * lanes));
+  }
+  float rest = 0;
+  for (; i < n; ++i) rest += values[i];
+  return sum_of(hn::Add(hn::Add(a, b), hn::Add(c, e))) + rest;
+}
+
 }  // namespace chiaro::measure::kernels::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -372,6 +388,7 @@ HWY_EXPORT(MaskedSobelRow);
 HWY_EXPORT(RunPass);
 HWY_EXPORT(HaarLevel);
 HWY_EXPORT(AddGram);
+HWY_EXPORT(Sum);
 
 void working_scalar(const float* from, float* to, std::size_t n) {
   HWY_DYNAMIC_DISPATCH(WorkingScalar)(from, to, n);
@@ -388,6 +405,8 @@ void masked_sobel_row(const float* above, const float* row, const float* below, 
 void add_gram(std::span<const float* const> rows, std::size_t n, double* gram) {
   HWY_DYNAMIC_DISPATCH(AddGram)(rows, n, gram);
 }
+
+float sum(const float* values, std::size_t n) { return HWY_DYNAMIC_DISPATCH(Sum)(values, n); }
 
 std::vector<std::int64_t> targets() { return hwy::SupportedAndGeneratedTargets(); }
 void use_target(std::int64_t target) {

@@ -47,6 +47,9 @@ void masked_sobel_row(const float* above, const float* row, const float* below, 
 /// gram[j * rows.size() + k] += sum over n of rows[j] * rows[k], for k <= j.
 void add_gram(std::span<const float* const> rows, std::size_t n, double* gram);
 
+/// Sum of all numbers as fast as they can be read: the bench's roofline.
+float sum(const float* values, std::size_t n);
+
 /// The SIMD targets that this machine can run, and a way to choose one for tests (0 = best).
 std::vector<std::int64_t> targets();
 void use_target(std::int64_t target);

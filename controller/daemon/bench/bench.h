@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// The parts of `chiaro bench`, in the order in which they run. Ratios compare things measured in
+// the same run on the same machine.
+#pragma once
+
+#include <cstdint>
+
+#include "controller/core/result.h"
+#include "controller/daemon/bench/report.h"
+#include "controller/design/design.h"
+#include "controller/ports/world.h"
+#include "controller/studio/studio.h"
+
+namespace chiaro::daemon::bench {
+
+struct Plan {
+  studio::Studio studio;
+  design::ExampleGoal mood, other_mood;
+  bool quick = false;
+  int seeds = 10;
+  std::uint64_t reference_trials = 1000;
+  core::Size size{256, 256};
+};
+
+/// The picture kernels beside what the machine can read.
+void kernels(const Plan& plan, ports::World& world, Report& report);
+/// Tracer, view, layers, and one trial, fast and reference, with point and with soft lights.
+core::Result<core::Done> trials(const Plan& plan, ports::World& world, Report& report);
+/// Levels alone, for known layers.
+core::Result<core::Done> levels(const Plan& plan, ports::World& world, Report& report);
+/// Whole designs, cold and warm, on the studio's subject and on one of a million triangles.
+core::Result<core::Done> designs(const Plan& plan, ports::World& world, Report& report);
+/// Time to the quality that reference annealing reaches, and what each idea contributes.
+core::Result<core::Done> quality(const Plan& plan, ports::World& world, Report& report);
+
+/// Bytes per second that one core reads from a working set of that size.
+double read_bandwidth(const ports::Clock& clock, std::size_t bytes, bool quick);
+
+}  // namespace chiaro::daemon::bench
