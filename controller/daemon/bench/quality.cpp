@@ -31,6 +31,12 @@ struct Improvement {
   studio::Rig rig;
 };
 
+design::Prepared prepared_for(const design::Layers& layers, const design::Goal& goal) {
+  design::Target target = design::target_of(goal, layers.size());
+  measure::PixelMap map = design::map_for(layers, target);
+  return {layers, std::move(target), std::move(map)};
+}
+
 /// All that one search needs, from a twin of its own: no variant profits from another's cache.
 class Search {
  public:
@@ -39,9 +45,7 @@ class Search {
         goal_(plan.mood),
         all_(design::variables_of(plan.studio, design::Options{})),
         lamps_(design::searched(plan.studio, all_, goal_)),
-        prepared_(design::prepare(plan.studio, goal_, all_, twin.at(variant.size),
-                                  twin.at(variant.size), twin.at(variant.size))
-                      .full),
+        prepared_(prepared_for(twin.at(variant.size), goal_)),
         setting_{
             plan.studio,   prepared_.layers,
             lamps_,        prepared_.target,
@@ -113,9 +117,7 @@ class Judge {
       : goal_(plan.mood),
         all_(design::variables_of(plan.studio, design::Options{})),
         lamps_(design::searched(plan.studio, all_, goal_)),
-        prepared_(design::prepare(plan.studio, goal_, all_, twin.at(plan.size), twin.at(plan.size),
-                                  twin.at(plan.size))
-                      .full),
+        prepared_(prepared_for(twin.at(plan.size), goal_)),
         setting_{plan.studio,      prepared_.layers, lamps_,
                  prepared_.target, prepared_.map,    design::Accuracy::exact},
         workspace_(setting_) {}
@@ -167,14 +169,14 @@ core::Result<Reference> reference_runs(const Plan& plan, const Variant& variant,
 }  // namespace
 
 core::Result<core::Done> quality(const Plan& plan, ports::World& world, Report& report) {
-  const core::Size small{plan.size.width / 2, plan.size.height / 2};
+  const core::Size small = design::Options{}.search_size;
   const Variant reference{
       "reference: annealing, all traced anew", false, false, "annealing", plan.size, 1};
   const Variant variants[] = {
       {"+ visibility cached, layers kept", true, false, "annealing", plan.size, 1},
       {"+ levels solved inside", true, true, "annealing", plan.size, 1},
       {"+ multi-start SBPLX", true, true, "sbplx", plan.size, 1},
-      {"+ search on half-size pictures", true, true, "sbplx", small, 1},
+      {"+ search on small pictures", true, true, "sbplx", small, 1},
       {"+ two threads: what the product does", true, true, "sbplx", small, 2},
       {"the product without the cache", false, true, "sbplx", small, 2},
       {"the product without solving levels", true, false, "sbplx", small, 2},

@@ -186,11 +186,11 @@ core::Result<core::Done> levels(const Plan& plan, ports::World& world, Report& r
     design::ExampleGoal goal = plan.mood;
     goal.objective = objective;
     const design::Goal wanted = goal;
-    const design::Prepared prepared =
-        design::prepare(plan.studio, wanted, all, layers, layers, layers).full;
+    const design::Target target = design::target_of(wanted, layers.size());
+    const measure::PixelMap map = design::map_for(layers, target);
     const design::Variables lamps = design::searched(plan.studio, all, wanted);
-    const design::Setting setting{plan.studio,     layers,       lamps,
-                                  prepared.target, prepared.map, design::Accuracy::cached};
+    const design::Setting setting{plan.studio, layers, lamps,
+                                  target,      map,    design::Accuracy::cached};
     design::Workspace workspace(setting);
     const design::Columns& columns = workspace.columns(all.base);
     const double us = best_us(world.clock, plan.quick ? 3 : 7, plan.quick ? 1 : 5,
