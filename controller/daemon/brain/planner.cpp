@@ -55,6 +55,7 @@ void Planner::prepare(const studio::Studio& studio, const std::filesystem::path&
       if (!layers) return layers;
       const design::Options sizes;
       (*layers)->at(sizes.search_size);
+      (*layers)->at(sizes.polish_size);
       (*layers)->at(sizes.full_size);
       return layers;
     });
