@@ -6,8 +6,8 @@ import { sentence } from './notices';
 import type { Design, Look, Scene, State } from './state';
 
 const verdicts: Record<string, string> = {
-  reached: 'as close as it can be seen',
-  near: 'close',
+  reached: 'matches the reference',
+  near: 'close to the reference',
   'not reachable': 'not fully reachable with these lamps',
   not_reachable: 'not fully reachable with these lamps',
 };
