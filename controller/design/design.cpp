@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "controller/design/align.h"
 #include "controller/design/colours.h"
 #include "controller/design/exposure.h"
 #include "controller/design/judge.h"
@@ -43,6 +44,31 @@ studio::Rig wanted_placements(const studio::Studio& studio, const Sizes& sizes, 
   if (std::isfinite(found.cost)) return lamps.rig(found.point);
   warnings.push_back("no allowed place was found for the lamps together: they stay where they are");
   return all.base;
+}
+
+/// The exemplar shifted and scaled to lie on our subject, by what a first rough rig shows.
+Goal aligned(const studio::Studio& studio, const LayersSource& twin, const Goal& goal,
+             const Options& options, const Variables& all, Watch& watch) {
+  const auto* example = std::get_if<ExampleGoal>(&goal);
+  if (example == nullptr || !options.align) return goal;
+  const Layers& layers = twin.at(options.search_size);
+  const Sizes rough = prepare(studio, goal, all, layers, layers, layers);
+  const Setting setting{studio, layers, all, rough.small.target, rough.small.map, Accuracy::cached};
+  Options few = options;
+  few.trials = std::max<std::uint64_t>(
+      1, (options.trials > 0 ? options.trials : default_trials(all.moving.size())) / 3);
+  const std::vector<Found> basins = search(setting, few, watch);
+  Workspace workspace(setting);
+  const studio::Rig places = std::isfinite(basins.front().cost) && !all.moving.empty()
+                                 ? all.rig(basins.front().point)
+                                 : all.base;
+  core::Plane ours;
+  const auto levels = workspace.solver().solve(workspace.columns(places), Effort::quick).values;
+  mix(workspace.columns(places), levels, ours);
+  ExampleGoal moved = *example;
+  moved.exemplar = seen_through(example->exemplar,
+                                best_window(example->exemplar, ours, options.seed), kMeasuredSize);
+  return moved;
 }
 
 void warn_of_places(const studio::Studio& studio, const Layers& layers, const studio::Rig& placed,
@@ -119,19 +145,20 @@ void advise_exposure(const studio::Studio& studio, const Sizes& sizes, const Goa
 
 }  // namespace
 
-core::Result<Look> design(const studio::Studio& studio, const LayersSource& twin, const Goal& goal,
+core::Result<Look> design(const studio::Studio& studio, const LayersSource& twin, const Goal& asked,
                           const Options& options) {
-  core::Problems problems = every_problem(studio, twin, goal, options);
+  core::Problems problems = every_problem(studio, twin, asked, options);
   if (core::any_error(problems)) return problems;
   Watch watch(options);
   Look look;
-  const auto* example = std::get_if<ExampleGoal>(&goal);
+  const auto* example = std::get_if<ExampleGoal>(&asked);
   look.name = example != nullptr ? example->name : "ideal";
-  look.goal = goal_in_words(goal);
+  look.goal = goal_in_words(asked);
   look.optimiser = options.optimiser;
   look.seed = options.seed;
 
   const Variables all = variables_of(studio, options);
+  const Goal goal = aligned(studio, twin, asked, options, all, watch);
   const Layers& layers = twin.at(options.full_size);
   const Sizes sizes = prepare(studio, goal, all, twin.at(options.search_size),
                               twin.at(options.polish_size), layers);

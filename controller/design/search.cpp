@@ -7,8 +7,10 @@
 namespace chiaro::design {
 namespace {
 
-constexpr std::size_t kPolished = 3;  // basins worth a look at full size
-// How far from a coarse basin its full-size optimum may lie, as a share of each variable's range.
+// Basins worth a look at the larger size: the best, and others that cost hardly more.
+constexpr std::size_t kPolished = 3;
+constexpr double kHardlyMore = 1.1;
+// How far from a coarse basin its larger optimum may lie, as a share of each variable's range.
 constexpr double kNeighbourhood = 0.08;
 constexpr std::uint64_t kPolishTrials = 12;  // per variable and basin
 constexpr std::uint64_t kAsLongAsTimeLasts = 50'000'000;
@@ -54,7 +56,7 @@ std::vector<core::Range> near(const std::vector<core::Range>& bounds,
 }  // namespace
 
 std::uint64_t default_trials(std::size_t variables) {
-  return variables == 0 ? 1 : 400 + 150 * static_cast<std::uint64_t>(variables);
+  return variables == 0 ? 1 : 200 + 70 * static_cast<std::uint64_t>(variables);
 }
 
 std::vector<Found> search(const Setting& coarse, const Options& options, Watch& watch) {
@@ -80,7 +82,10 @@ Found polish(const Setting& full, const std::vector<Found>& basins, const Option
              Watch& watch) {
   Found best = basins.front();
   if (full.variables.moving.empty() || !std::isfinite(best.cost)) return best;
-  const std::size_t count = std::min(kPolished, basins.size());
+  std::size_t count = 1;
+  while (count < std::min(kPolished, basins.size()) &&
+         basins[count].cost <= kHardlyMore * best.cost)
+    ++count;
   const std::uint64_t trials = kPolishTrials * full.variables.moving.size();
   watch.begin("polish", trials * count);
   Workspaces workspaces(full);

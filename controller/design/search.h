@@ -12,7 +12,8 @@ struct Found {
   double cost = std::numeric_limits<double>::infinity();  ///< +infinity: nothing may stand anywhere
 };
 
-/// A sensible number of trials for that many placement variables.
+/// A sensible number of trials for that many placement variables: over the shipped moods twice and
+/// four times as many change the cost by less than 1 %.
 std::uint64_t default_trials(std::size_t variables);
 
 /// On the coarse setting; several basins, best first, never empty when any place is allowed.
