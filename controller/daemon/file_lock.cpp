@@ -45,7 +45,10 @@ FileLock::~FileLock() { ::close(descriptor_); }
 
 core::Result<core::Done> make_runtime_folder(const std::filesystem::path& folder) {
   std::error_code code;
-  std::filesystem::create_directories(folder, code);
+  using std::filesystem::perms;
+  if (std::filesystem::create_directories(folder, code))
+    std::filesystem::permissions(folder, perms::owner_all | perms::group_read | perms::group_exec,
+                                 code);
   if (code && !std::filesystem::is_directory(folder))
     return core::Problem{{folder.string()},
                          "cannot make the folder: " + code.message(),

@@ -59,6 +59,9 @@ std::filesystem::path state_folder() {
 std::filesystem::path runtime_folder() {
   if (const auto given = variable("CHIARO_RUNTIME"); !given.empty()) return given;
   if (const auto service = variable("RUNTIME_DIRECTORY"); !service.empty()) return service;
+  // The installed services' folder, so that `chiaro blackout` reaches them from anybody's shell.
+  std::error_code code;
+  if (std::filesystem::exists("/run/chiaro", code)) return "/run/chiaro";
   if (const auto xdg = variable("XDG_RUNTIME_DIR"); !xdg.empty())
     return std::filesystem::path(xdg) / "chiaro";
   return "/tmp/chiaro-" + std::to_string(::getuid());

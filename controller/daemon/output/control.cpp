@@ -13,6 +13,8 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include "controller/daemon/output/real_time.h"
+
 namespace chiaro::daemon {
 namespace {
 
@@ -58,7 +60,7 @@ std::string_view name_of(ports::PortHealth health) {
 
 core::Result<std::unique_ptr<Control>> Control::open(const std::filesystem::path& socket,
                                                      Hand& hand, Housekeeper& housekeeper,
-                                                     std::atomic<bool>& release) {
+                                                     std::atomic<bool>& release, bool real_time) {
   const std::string path = socket.string();
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
@@ -76,18 +78,22 @@ core::Result<std::unique_ptr<Control>> Control::open(const std::filesystem::path
     ::close(listener);
     return problem;
   }
-  return std::unique_ptr<Control>(new Control(listener, socket, hand, housekeeper, release));
+  return std::unique_ptr<Control>(
+      new Control(listener, socket, hand, housekeeper, release, real_time));
 }
 
 Control::Control(int listener, std::filesystem::path socket, Hand& hand, Housekeeper& housekeeper,
-                 std::atomic<bool>& release)
+                 std::atomic<bool>& release, bool real_time)
     : listener_(listener),
       socket_(std::move(socket)),
       hand_(hand),
       housekeeper_(housekeeper),
       release_(release) {
   if (::pipe2(wake_, O_CLOEXEC) != 0) wake_[0] = wake_[1] = -1;
-  thread_ = std::thread([this] { serve(); });
+  thread_ = std::thread([this, real_time] {
+    if (real_time) take_turn_below_loop();
+    serve();
+  });
 }
 
 Control::~Control() {

@@ -19,10 +19,11 @@ namespace chiaro::daemon {
 /// Serves on a thread of its own from construction to destruction.
 class Control {
  public:
-  /// `release` is set when somebody asks the hand to say goodbye and end.
+  /// `release` is set when somebody asks the hand to say goodbye and end. `real_time`: ask for a
+  /// real-time turn, so that a blackout comes through a busy machine.
   static core::Result<std::unique_ptr<Control>> open(const std::filesystem::path& socket,
                                                      Hand& hand, Housekeeper& housekeeper,
-                                                     std::atomic<bool>& release);
+                                                     std::atomic<bool>& release, bool real_time);
   ~Control();
   Control(const Control&) = delete;
   Control& operator=(const Control&) = delete;
@@ -33,7 +34,7 @@ class Control {
     std::string text;
   };
   Control(int listener, std::filesystem::path socket, Hand& hand, Housekeeper& housekeeper,
-          std::atomic<bool>& release);
+          std::atomic<bool>& release, bool real_time);
   void serve();
   void accept_one();
   bool read_from(Client& client);

@@ -102,29 +102,41 @@ void Housekeeper::tell_changes() {
   world_.err << "chiaro-output: " << told_as(now, report_.refused) << std::endl;
 }
 
-/// A port that is not good is borrowed from the loop, opened again and given back; the waits
-/// between the attempts double up to two seconds.
+/// Ports that are not good are borrowed from the loop, opened again and given back, all in one
+/// round, so that a pulled cable with 256 universes behind it does not keep this thread from the
+/// rest of its work. The waits between the attempts double up to two seconds.
 void Housekeeper::mend_ports() {
-  for (const auto& slot : show_->ports()) {
-    if (slot->health() == ports::PortHealth::good) {
-      if (lost_.erase(slot.get()) > 0)
-        world_.err << "chiaro-output: universe " << slot->settings().universe << " is back"
-                   << std::endl;
-      continue;
-    }
-    const ports::TimePoint now = world_.clock.now();
-    const auto [entry, fresh] = lost_.try_emplace(slot.get(), Lost{now + kFirstRetry, kFirstRetry});
-    if (fresh)
-      world_.err << "chiaro-output: universe " << slot->settings().universe
-                 << " cannot be sent; trying again" << std::endl;
-    if (now < entry->second.next) continue;
-    slot->ask();
-    for (int i = 0; i < 20 && !slot->lent() && !ending_; ++i) wait_a_tick();
+  std::vector<PortSlot*> borrowed;
+  for (const auto& slot : show_->ports())
+    if (is_due_for_mending(*slot)) borrowed.push_back(slot.get());
+  if (borrowed.empty()) return;
+  for (PortSlot* slot : borrowed) slot->ask();
+  const auto all_lent = [&] {
+    return std::all_of(borrowed.begin(), borrowed.end(), [](auto* slot) { return slot->lent(); });
+  };
+  for (int i = 0; i < 20 && !all_lent() && !ending_; ++i) wait_a_tick();
+  for (PortSlot* slot : borrowed) {
     if (slot->lent()) (void)slot->port().open();
     slot->give_back();
-    entry->second.wait = std::min(2 * entry->second.wait, kLastRetry);
-    entry->second.next = world_.clock.now() + entry->second.wait;
+    Lost& lost = lost_.at(slot);
+    lost.wait = std::min(2 * lost.wait, kLastRetry);
+    lost.next = world_.clock.now() + lost.wait;
   }
+}
+
+bool Housekeeper::is_due_for_mending(const PortSlot& slot) {
+  const auto universe = slot.settings().universe;
+  if (slot.health() == ports::PortHealth::good) {
+    if (lost_.erase(&slot) > 0)
+      world_.err << "chiaro-output: universe " << universe << " is back" << std::endl;
+    return false;
+  }
+  const ports::TimePoint now = world_.clock.now();
+  const auto [entry, fresh] = lost_.try_emplace(&slot, Lost{now + kFirstRetry, kFirstRetry});
+  if (fresh)
+    world_.err << "chiaro-output: universe " << universe << " cannot be sent; trying again"
+               << std::endl;
+  return now >= entry->second.next;
 }
 
 void Housekeeper::wait_a_tick() { world_.clock.sleep_until(world_.clock.now() + kTick); }

@@ -45,6 +45,7 @@ class Housekeeper {
   void read_report();
   void tell_changes();
   void mend_ports();
+  bool is_due_for_mending(const PortSlot& slot);
   void save_if_due();
   void save_now();
   void wait_a_tick();

@@ -9,8 +9,7 @@
 namespace chiaro::daemon {
 namespace {
 
-// Above ordinary work and threaded interrupts' default neighbours below, under what audio and the
-// kernel's own threads use.
+// Under the kernel's threaded interrupts (50), which the loop's packets need.
 constexpr int kPriority = 40;
 
 bool set_policy(int policy, int priority) {
@@ -42,6 +41,8 @@ bool take_real_time(core::Problems& warnings) {
                         true});
   return turn && memory;
 }
+
+void take_turn_below_loop() { set_policy(SCHED_FIFO, kPriority - 10); }
 
 void take_ordinary_time() { set_policy(SCHED_OTHER, 0); }
 
