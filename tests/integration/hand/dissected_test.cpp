@@ -37,7 +37,8 @@ void write_capture(const std::filesystem::path& file, const Packet& packet) {
   for (const auto* part : {&ip, &udp})
     out.write(reinterpret_cast<const char*>(part->data()),
               static_cast<std::streamsize>(part->size()));
-  out.write(reinterpret_cast<const char*>(packet.data()), packet.size());
+  out.write(reinterpret_cast<const char*>(packet.data()),
+            static_cast<std::streamsize>(packet.size()));
 }
 
 std::string output_of(const std::string& command) {
