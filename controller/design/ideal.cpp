@@ -11,8 +11,11 @@ namespace {
 
 constexpr int kElevations = 9, kHalfStops = 14;
 const core::Range kBackElevations{core::radians(30), core::radians(70)};
+// A count over one threshold is soon full and says no more: edges that stand out clearly, and those
+// that glow as a rim does, count again.
+constexpr double kRims[] = {8, 16, 32};
 // What a full back light must earn in edge share: light that shows no new edge is not spent.
-constexpr double kPriceOfLight = 0.02;
+constexpr double kPriceOfLight = 0.005;
 
 /// The azimuth of a region that is nearest to straight behind the subject.
 double behind(const core::Range& azimuth) {
@@ -185,7 +188,13 @@ measure::PixelMap silhouette_of(const measure::PixelMap& map) {
 }
 
 double silhouette_share(const core::Plane& luminance, const measure::PixelMap& silhouette) {
-  return measure::components_of_luminance(luminance, silhouette).edge;
+  double sum = 0;
+  for (const double threshold : kRims) {
+    measure::MeasureOptions options;
+    options.edge_threshold = threshold;
+    sum += measure::components_of_luminance(luminance, silhouette, nullptr, options).edge;
+  }
+  return sum / std::size(kRims);
 }
 
 measure::IdealTargets attainable_targets(const Setting& setting) {

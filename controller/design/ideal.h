@@ -27,7 +27,8 @@ studio::Rig with_background_lights(const Setting& setting, studio::Rig rig);
 
 /// The map with the subject's outer silhouette as its only edges.
 measure::PixelMap silhouette_of(const measure::PixelMap& map);
-/// Share of those edges that show in the picture, 0..1; 0 when there are none.
+/// How well those edges show, 0..1: the mean of their shares that show at all, clearly, and as a
+/// bright rim. 0 when there are none.
 double silhouette_share(const core::Plane& luminance, const measure::PixelMap& silhouette);
 
 }  // namespace chiaro::design

@@ -13,6 +13,24 @@ namespace {
 
 bool is_ideal(const Goal& goal) { return std::holds_alternative<IdealGoal>(goal); }
 
+/// Components are the same whichever side, or from below, the light comes: only a picture that is
+/// compared place by place tells.
+bool tells_directions(const Goal& goal) {
+  const auto* example = std::get_if<ExampleGoal>(&goal);
+  return example != nullptr && example->objective == Objective::wavelet;
+}
+
+/// The thesis keeps the key to the quarter sphere in front and above [I-5]. A region that lies
+/// wholly elsewhere stays as it is: its owner knows why.
+core::Range in_front_and_above(const Variable& variable) {
+  core::Range quarter = variable.range;
+  if (variable.dof == core::Dof::elevation) quarter = {0, core::kPi / 2};
+  if (variable.dof == core::Dof::azimuth) quarter = {-core::kPi / 2, core::kPi / 2};
+  const core::Range both{std::max(variable.range.least, quarter.least),
+                         std::min(variable.range.most, quarter.most)};
+  return both.width() > 0 ? both : variable.range;
+}
+
 /// The same lamps, standing still as in `rig`.
 Variables still(const Variables& all, const studio::Rig& rig) {
   Variables variables = all;
@@ -89,7 +107,12 @@ double placed_gradient(const studio::Studio& studio, const Prepared& at, const V
 }  // namespace
 
 Variables searched(const studio::Studio& studio, const Variables& all, const Goal& goal) {
-  return is_ideal(goal) ? variables_of(studio, all, IdealStage::shape, all.base) : all;
+  Variables lamps = is_ideal(goal) ? variables_of(studio, all, IdealStage::shape, all.base) : all;
+  if (tells_directions(goal)) return lamps;
+  for (Variable& variable : lamps.moving)
+    if (studio.fixtures[variable.fixture].role == studio::Role::key)
+      variable.range = in_front_and_above(variable);
+  return lamps;
 }
 
 Sizes prepare(const studio::Studio& studio, const Goal& goal, const Variables& variables,

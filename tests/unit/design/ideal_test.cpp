@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "controller/design/design.h"
+#include "controller/design/stages.h"
 #include "tests/support/analytic_layers.h"
 #include "tests/support/rigs.h"
 
@@ -124,6 +125,21 @@ TEST(IdealDesign, LightsTheShapeWithoutAnExemplar) {
   EXPECT_GT(look->wanted.states[0].get(core::Dof::intensity), 0.02);
   EXPECT_NEAR(look->components[1].value, 127.5, 30);
   EXPECT_EQ(look->goal, "ideal");
+}
+
+TEST(IdealDesign, KeepsTheKeyInFrontAndAbove) {
+  const studio::Studio studio = four_lamps();
+  const Variables all = variables_of(studio, {});
+  ExampleGoal perceptual;
+  perceptual.objective = Objective::perceptual;
+  for (const Goal& goal : {Goal(IdealGoal{}), Goal(perceptual)}) {
+    const Variables lamps = searched(studio, all, goal);
+    EXPECT_EQ(lamps.moving[1].dof, core::Dof::elevation);
+    EXPECT_EQ(lamps.moving[1].range.least, 0) << "the key";
+    EXPECT_LT(lamps.moving[4].range.least, 0) << "the fill may come from below";
+  }
+  // A picture compared place by place tells by itself where its light comes from.
+  EXPECT_LT(searched(studio, all, Goal(ExampleGoal{})).moving[1].range.least, 0);
 }
 
 TEST(IdealDesign, NeedsAShape) {
