@@ -189,6 +189,7 @@ core::Result<core::Done> quality(const Plan& plan, ports::World& world, Report& 
   Judge judge(plan, **twin);
   const auto yard = reference_runs(plan, reference, judge, world);
   if (!yard) return yard.problems();
+  if (world.stop) return core::Done{};
   report.add(reference.name, median(yard->seconds), "s", {},
              std::to_string(plan.reference_trials) + " trials, cost " +
                  std::to_string(median(yard->costs)));
@@ -201,6 +202,7 @@ core::Result<core::Done> quality(const Plan& plan, ports::World& world, Report& 
       times.push_back(time_to(yard->costs[k], *found, judge));
       ratios.push_back(times.back() > 0 ? yard->seconds[k] / times.back() : 0);
     }
+    if (world.stop) break;  // half a variant says nothing
     const bool product = variant.threads == 2 && variant.cached && variant.levels_solved &&
                          std::string_view(variant.optimiser) == "sbplx";
     const auto reached =

@@ -81,6 +81,7 @@ ports::Exit run(const Wish& wish, ports::World& world, bool json) {
     if (const auto done = part.run(*plan, world, report); !done)
       return refuse(done.problems(), world, json);
   }
+  if (world.stop) world.err << "stopped: what was measured so far follows\n";
   world.out << (json ? report.to_json(plan->studio.name, wish.quick) + "\n" : report.to_text());
   return ports::Exit::done;
 }
