@@ -141,8 +141,10 @@ double time_to(double wanted, const std::vector<Improvement>& improvements, Judg
 core::Result<std::vector<Improvement>> searched(const Plan& plan, const Variant& variant,
                                                 std::uint64_t trials, std::uint64_t seed,
                                                 ports::World& world) {
-  const auto twin = design::geometric_layers(
-      plan.studio, {.mesh_cache = world.state_folder / "meshes", .threads = variant.threads});
+  const auto twin =
+      design::geometric_layers(plan.studio, {.mesh_cache = world.state_folder / "meshes",
+                                             .reference = !variant.cached,
+                                             .threads = variant.threads});
   if (!twin) return twin.problems();
   return Search(plan, **twin, variant).run(trials, seed, world);
 }
