@@ -122,8 +122,11 @@ class GeometricLayers : public Layers {
       if (!core::is_placement(each.dof)) place.clear(each.dof);
     const std::pair key{fixture, place};
     const auto known = [&]() -> std::shared_ptr<const Remembered> {
-      for (const auto& [k, v] : recent_)
-        if (k == key) return v;
+      for (auto entry = recent_.begin(); entry != recent_.end(); ++entry) {
+        if (entry->first != key) continue;
+        std::rotate(recent_.begin(), entry, entry + 1);  // used last, forgotten last
+        return recent_.front().second;
+      }
       return nullptr;
     };
     {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "controller/measure/gram.h"
 #include "controller/optimise/least_squares.h"
@@ -18,7 +19,7 @@ constexpr float kScale = 2.55f;  // working scalar per L*
 /// dL*/dY x 2.55 from the working scalar itself: L* = 116 Y^(1/3) - 16, so dL*/dY = 116/3 / f^2.
 float slope_of(float value) {
   const float f = (value / kScale + 16) / 116;
-  return f > 0.2069f ? kScale * 116 / (3 * f * f) : kScale * 903.3f;
+  return std::min(kScale * 116 / (3 * f * f), kScale * 903.3f);
 }
 
 }  // namespace
@@ -26,7 +27,11 @@ float slope_of(float value) {
 WaveletLevels::WaveletLevels(const Target& target)
     : target_(target),
       nothing_(target.size),
-      zero_(measure::haar_spectrum(nothing_, target.size.width)) {}
+      ceiling_(target.size, std::numeric_limits<float>::infinity()),
+      zero_(measure::haar_spectrum(nothing_, target.size.width)) {
+  for (std::size_t i = 0; i < ceiling_.values.size(); ++i)
+    if (target.clipped.values[i]) ceiling_.values[i] = target.values.values[i];
+}
 
 Levels WaveletLevels::solve(const Columns& columns, Effort effort) {
   Levels now;
@@ -55,11 +60,17 @@ void WaveletLevels::linearise(const Columns& columns, std::span<const double> le
   difference_ = measure::working_scalar(picture_);
   slope_.size = picture_.size;
   slope_.values.resize(picture_.values.size());
+  // Floats and selects only, so that the compiler makes vectors of it.
+  const float* wanted = target_.values.values.data();
+  const float* ceiling = ceiling_.values.data();
+  const float* light = picture_.values.data();
+  float* difference = difference_.values.data();
+  float* slope = slope_.values.data();
   for (std::size_t i = 0; i < picture_.values.size(); ++i) {
-    const float value = difference_.values[i];
-    const bool enough = target_.clipped.values[i] && value >= target_.values.values[i];
-    difference_.values[i] = enough ? 0 : value - target_.values.values[i];
-    slope_.values[i] = enough || picture_.values[i] >= 1 ? 0 : slope_of(value);
+    const float value = difference[i], here = slope_of(value);
+    const float shows = value >= ceiling[i] ? 0.0f : 1.0f;
+    difference[i] = shows * (value - wanted[i]);
+    slope[i] = light[i] >= 1 ? 0.0f : shows * here;
   }
 }
 

@@ -23,6 +23,7 @@ class WaveletLevels : public LevelSolver {
 
   const Target& target_;
   core::Plane picture_, difference_, slope_, rest_, nothing_;
+  core::Plane ceiling_;  ///< where the exemplar clipped: from here on nothing costs
   std::vector<core::Plane> weighted_;
   measure::HaarSpectrum zero_;
 };
