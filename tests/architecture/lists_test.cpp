@@ -92,6 +92,21 @@ TEST(Lists, EqualTheirFolders) {
   }
 }
 
+/// A contract test names the list that it runs over: in its opening or in an #include.
+bool names(const File& test, const std::string& list) {
+  return std::any_of(test.lines.begin(), test.lines.end(),
+                     [&](const std::string& line) { return line.find(list) != std::string::npos; });
+}
+
+TEST(Lists, EveryOneHasContractTestsOverItsLines) {
+  for (const auto& list : lists()) {
+    bool read = false;
+    for (const auto& file : files())
+      read = read || (starts_with(file.path, "tests/contract/") && names(file, list.name()));
+    EXPECT_TRUE(read) << list.path;
+  }
+}
+
 TEST(Lists, EveryDriverFolderHasItsLine) {
   std::set<std::string> listed;
   for (const auto& list : lists())
