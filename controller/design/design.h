@@ -43,7 +43,7 @@ struct Options {
   std::string optimiser = "sbplx";
   std::uint64_t seed = 1;
   std::uint64_t trials = 0;  ///< 0 = a default by the number of moving DOFs
-  std::optional<double> budget_s;
+  std::optional<double> budget_s;    ///< searching stops at 70 % of it: the rest finishes the look
   std::vector<std::string> locked;   ///< fixtures that keep their placed state
   std::optional<studio::Rig> start;  ///< warm start
   bool move_stands = true;           ///< false: solve levels and colours for the placed rig only

@@ -11,6 +11,8 @@ namespace {
 
 // A swap may cost this much more; a lamp whose light changes the cost less than that is idle.
 constexpr double kSwapPrice = 1.05, kIdle = 1.005;
+// And nobody sees a tenth of a grey level, or its like among the components.
+constexpr double kUnseenGrey = 0.1, kUnseenCost = 0.002;
 
 std::optional<std::size_t> mover_of(const Setting& setting, studio::Role role) {
   for (const std::size_t fixture : setting.variables.movers())
@@ -53,7 +55,8 @@ studio::Rig without_idle_lamps(const Setting& setting, studio::Rig rig) {
   Workspace workspace(setting);
   Columns columns = workspace.columns(rig);
   Levels best = workspace.solver().solve(columns, Effort::thorough);
-  const double most = kIdle * best.cost;
+  const bool grey = setting.target.kind == Target::Kind::wavelet;
+  const double most = kIdle * best.cost + (grey ? kUnseenGrey : kUnseenCost);
   std::vector<std::size_t> order(lit.size());
   for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {

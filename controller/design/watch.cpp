@@ -2,6 +2,12 @@
 #include "controller/design/watch.h"
 
 namespace chiaro::design {
+namespace {
+
+// Of a budget; the rest is for exact levels, colours and the two predictions.
+constexpr double kSearchShare = 0.7;
+
+}  // namespace
 
 Watch::Watch(const Options& options)
     : options_(options), started_(options.seconds ? options.seconds() : 0) {}
@@ -11,7 +17,7 @@ double Watch::elapsed() const { return options_.seconds ? options_.seconds() - s
 bool Watch::over() {
   if (over_) return true;
   if (options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed)) over_ = true;
-  if (options_.budget_s && elapsed() >= *options_.budget_s) {
+  if (options_.budget_s && elapsed() >= kSearchShare * *options_.budget_s) {
     out_of_time_ = true;
     over_ = true;
   }
