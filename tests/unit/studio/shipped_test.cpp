@@ -27,9 +27,11 @@ TEST(ShippedProfiles, EveryOneLoadsAndCallsItselfByItsPath) {
 
 TEST(ShippedProfiles, TheGenericOnesOfferEightSixteenAndTwentyFourBits) {
   std::vector<int> bytes;
-  for (const std::string& name : profile_names(kShipped))
-    for (const Mode& mode : load_profile(name, kShipped)->modes)
+  for (const std::string& name : profile_names(kShipped)) {
+    const auto profile = load_profile(name, kShipped);
+    for (const Mode& mode : profile->modes)
       for (const Channel& channel : mode.channels) bytes.push_back(channel.bytes);
+  }
   for (const int each : {1, 2, 3})
     EXPECT_NE(std::find(bytes.begin(), bytes.end(), each), bytes.end()) << each << " bytes";
 }
