@@ -77,7 +77,7 @@ TEST_F(NewCommand, AnswersEndUpInTheFile) {
 TEST_F(NewCommand, ALampThatHangsStandsWhereItWasSaidToBe) {
   const std::string lamp = "back\nback\n\n\n\n\nno\nstraight behind, level, 1.5 m\n";
   ASSERT_EQ(run(kRoom + "1\n" + lamp), ports::Exit::done) << fake_.err.str();
-  const auto& mount = std::get<studio::FixedMount>(loaded().fixtures.at(0).mount);
+  const auto mount = std::get<studio::FixedMount>(loaded().fixtures.at(0).mount);
   EXPECT_NEAR(mount.at.x, 0, 1e-3);
   EXPECT_NEAR(mount.at.y, 1.5, 1e-3);
   EXPECT_NEAR(mount.at.z, 1.3, 1e-3);
