@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "controller/daemon/box_words.h"
 
+#include <array>
 #include <bit>
+#include <cstring>
 
 namespace chiaro::daemon {
 namespace {
 
 using core::Dof;
 using core::FixtureState;
+using Slots = decltype(rig::Sent::Port::slots);  // eight to a word
+static_assert(std::tuple_size_v<Slots> % sizeof(std::uint64_t) == 0);
 
 // One function says the order of the words; Put and Take walk it in the two directions, and Count
 // measures it, so that the three cannot disagree.
@@ -26,6 +30,10 @@ class Put {
   template <class T>
   void small(const T& v) {
     word(static_cast<std::uint64_t>(v));
+  }
+  void slots(const Slots& v) {
+    std::memcpy(next_, v.data(), v.size());
+    next_ += v.size() / sizeof(std::uint64_t);
   }
 
  private:
@@ -53,6 +61,10 @@ class Take {
   void small(T& v) {
     v = static_cast<T>(word());
   }
+  void slots(Slots& v) {
+    std::memcpy(v.data(), next_, v.size());
+    next_ += v.size() / sizeof(std::uint64_t);
+  }
 
  private:
   const std::uint64_t* next_;
@@ -69,8 +81,16 @@ class Count {
   void small(const T&) {
     ++words;
   }
+  void slots(const Slots& v) { words += v.size() / sizeof(std::uint64_t); }
   std::size_t words = 0;
 };
+
+template <class Walk, class Tried>
+void walk_tried(Walk& walk, Tried& tried) {
+  walk.small(tried.universe);
+  walk.small(tried.slot);
+  walk.small(tried.level);
+}
 
 template <class Walk, class Wanted>
 void walk_wanted(Walk& walk, Wanted& wanted) {
@@ -84,6 +104,8 @@ void walk_wanted(Walk& walk, Wanted& wanted) {
   for (auto& master : wanted.masters) walk(master);
   walk(wanted.blackout);
   walk(wanted.blackout_id);
+  for (auto& tried : wanted.tried) walk_tried(walk, tried);
+  walk(wanted.tried_until_ns);
 }
 
 template <class Walk, class Port>
@@ -98,6 +120,7 @@ void walk_port(Walk& walk, Port& port) {
   walk(port.jitter_us_p50);
   walk(port.jitter_us_p99);
   walk(port.jitter_us_p999);
+  walk.slots(port.slots);
 }
 
 template <class Walk, class Sent>

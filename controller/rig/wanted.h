@@ -36,6 +36,14 @@ struct SourceState {
 enum class Master : std::uint8_t { grand, key, fill, back, background };
 inline constexpr std::size_t kMasters = 5;
 
+/// One slot that a person raises to find out what it does: a lamp without a profile.
+struct TriedSlot {
+  std::uint16_t universe = 0;  ///< 0 = none
+  std::uint16_t slot = 0;      ///< 1..512
+  std::uint8_t level = 0;
+};
+inline constexpr std::size_t kTriedSlots = 32;
+
 /// Brain to hand.
 struct Wanted {
   std::uint64_t studio_fingerprint = 0;
@@ -44,6 +52,8 @@ struct Wanted {
   std::array<double, kMasters> masters{1, 1, 1, 1, 1};
   bool blackout = false;          ///< as the brain's API wants it; latched by blackout_id
   std::uint64_t blackout_id = 0;  ///< a new id carries a new wish; the hand's own latch may differ
+  std::array<TriedSlot, kTriedSlots> tried{};
+  std::int64_t tried_until_ns = 0;  ///< monotonic clock: then they fall back to 0 by themselves
 };
 
 /// Hand to brain.
@@ -70,6 +80,7 @@ struct Sent {
     std::uint64_t missed = 0;  ///< deadlines at which nothing left
     /// |gap between two frames - period|, since the start: median, 99 and 99.9 per cent.
     double jitter_us_p50 = 0, jitter_us_p99 = 0, jitter_us_p999 = 0;
+    std::array<std::uint8_t, 512> slots{};  ///< as last sent; slot n is slots[n - 1]
   };
   std::vector<Port> ports;
   bool real_time = false;  ///< SCHED_FIFO and locked memory were granted

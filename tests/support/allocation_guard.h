@@ -22,16 +22,21 @@ class AllocationCount {
 
 }  // namespace chiaro::support
 
-void* operator new(std::size_t size) {
+// Out of line: GCC 12 takes an inlined pair of these and malloc for a mismatch.
+[[gnu::noinline]] void* operator new(std::size_t size) {
   ++chiaro::support::allocations_of_this_thread;
   if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
   throw std::bad_alloc();
 }
-void* operator new[](std::size_t size) { return operator new(size); }
-void operator delete(void* memory) noexcept {
+[[gnu::noinline]] void* operator new[](std::size_t size) { return operator new(size); }
+[[gnu::noinline]] void operator delete(void* memory) noexcept {
   if (memory != nullptr) ++chiaro::support::allocations_of_this_thread;
   std::free(memory);
 }
-void operator delete[](void* memory) noexcept { operator delete(memory); }
-void operator delete(void* memory, std::size_t) noexcept { operator delete(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { operator delete(memory); }
+[[gnu::noinline]] void operator delete[](void* memory) noexcept { operator delete(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
+  operator delete(memory);
+}
+[[gnu::noinline]] void operator delete[](void* memory, std::size_t) noexcept {
+  operator delete(memory);
+}

@@ -74,6 +74,7 @@ Show::Show(const studio::Studio& studio, const Options& options, ports::TimePoin
       plan_(patch::Plan::of(studio)),
       governor_(studio, now, held),
       frames_(plan_.blank_frames()),
+      tried_(studio_, plan_),
       report_(sized_sent(studio)),
       wanted_(sized_wanted(studio)) {
   report_.dry_run = options.dry_run;
@@ -165,6 +166,7 @@ void Show::hear(ports::TimePoint now) {
   if (reader_ && reader_->read(wanted_words_)) {
     from_words(wanted_words_, wanted_);
     governor_.take(wanted_, now);
+    tried_.take(wanted_);
   }
 }
 
@@ -173,6 +175,7 @@ void Show::frame(ports::Clock& clock) {
   last_frame_ = now;
   hear(now);
   plan_.encode(governor_.step(now), frames_);
+  if (!governor_.blackout()) tried_.raise(frames_, now);
   for (std::size_t i = 0; i < ports_.size(); ++i)
     if (ports_[i]->due(now)) ports_[i]->send(frames_[frame_of_port_[i]], clock);
   if (report_is_due(now)) report_now();
@@ -186,7 +189,10 @@ bool Show::report_is_due(ports::TimePoint now) const {
 void Show::report_now() {
   last_report_ = last_frame_;
   governor_.report(report_);
-  for (std::size_t i = 0; i < ports_.size(); ++i) ports_[i]->report(report_.ports[i]);
+  for (std::size_t i = 0; i < ports_.size(); ++i) {
+    ports_[i]->report(report_.ports[i]);
+    report_.ports[i].slots = frames_[frame_of_port_[i]].levels;
+  }
   to_words(report_, sent_words_);
   writer_->post(sent_words_);
 }

@@ -13,6 +13,7 @@
 #include "controller/core/result.h"
 #include "controller/daemon/box.h"
 #include "controller/daemon/output/port_slot.h"
+#include "controller/daemon/output/tried_slots.h"
 #include "controller/patch/plan.h"
 #include "controller/ports/world.h"
 #include "controller/rig/governor.h"
@@ -74,6 +75,7 @@ class Show {
   patch::Plan plan_;
   rig::Governor governor_;
   std::vector<ports::DmxFrame> frames_;
+  TriedSlots tried_;
   std::vector<std::unique_ptr<PortSlot>> ports_;  ///< one per output of the studio
   std::vector<std::size_t> frame_of_port_;        ///< index into frames_
   std::vector<double> rates_;

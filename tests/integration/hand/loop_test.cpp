@@ -112,6 +112,8 @@ TEST_F(Loop, CarriesEveryWordOfBothDirectionsThroughTheBoxes) {
   sent.blackout = true;
   sent.blackout_id = 9;
   sent.ports[1] = {2, 1, 40, 100, 1, 2, 3, 0.5, 4, 12};
+  sent.ports[1].slots[0] = 7;
+  sent.ports[1].slots[511] = 255;
   sent.dry_run = true;
   std::vector<std::uint64_t> words(sent_format(studio).words);
   to_words(sent, words);
@@ -130,6 +132,22 @@ TEST_F(Loop, CarriesEveryWordOfBothDirectionsThroughTheBoxes) {
   EXPECT_EQ(back.ports[1].universe, 2);
   EXPECT_EQ(back.ports[1].missed, 3u);
   EXPECT_EQ(back.ports[1].jitter_us_p999, 12);
+  EXPECT_EQ(back.ports[1].slots, sent.ports[1].slots);
+}
+
+TEST_F(Loop, CarriesTheSlotsThatAPersonTries) {
+  const auto studio = lamps(1);
+  rig::Wanted wanted = sized_wanted(studio);
+  wanted.tried[31] = {2, 512, 255};
+  wanted.tried_until_ns = -5;
+  std::vector<std::uint64_t> words(wanted_format(studio).words);
+  to_words(wanted, 1, words);
+  rig::Wanted back = sized_wanted(studio);
+  from_words(words, back);
+  EXPECT_EQ(back.tried[31].universe, 2);
+  EXPECT_EQ(back.tried[31].slot, 512);
+  EXPECT_EQ(back.tried[31].level, 255);
+  EXPECT_EQ(back.tried_until_ns, -5);
 }
 
 TEST(Jitter, FindsTheShareOfGapsWithinItsSteps) {
