@@ -42,7 +42,9 @@ std::uint64_t fingerprint(const std::string& yaml, const profiles::Shelf& shelf)
 }
 
 core::Result<Loaded> parse(const std::string& yaml, const std::string& name,
-                           const std::filesystem::path& base, const Folders& folders) {
+                           const std::filesystem::path& base, const Folders& shipped) {
+  Folders folders = shipped;
+  if (folders.own.empty()) folders.own = base / "fixtures";
   const auto document = parse_tree(yaml, name);
   if (!document) return document.problems();
   Report report(name);

@@ -14,6 +14,7 @@ namespace chiaro::studio {
 /// Where shipped profiles, subjects and moods are found: the installed or source `config` folder.
 struct Folders {
   std::filesystem::path config;
+  std::filesystem::path own{};  ///< the user's own profiles: `fixtures` beside the studio file
   std::filesystem::path fixtures() const { return config / "fixtures"; }
   std::filesystem::path subjects() const { return config / "subjects"; }
   std::filesystem::path moods() const { return config / "moods"; }

@@ -58,7 +58,11 @@ bool is_profile_name(const std::string& name) {
          name.find("..") == std::string::npos;
 }
 
+/// The user's own file wins over a shipped one of the same name.
 std::filesystem::path file_of(const std::string& name, const Folders& folders) {
+  std::error_code code;
+  const auto own = folders.own / (name + ".yaml");
+  if (!folders.own.empty() && std::filesystem::is_regular_file(own, code)) return own;
   return folders.fixtures() / (name + ".yaml");
 }
 
@@ -105,13 +109,16 @@ std::vector<std::string> profile_names(const Folders& folders) {
   namespace fs = std::filesystem;
   std::vector<std::string> names;
   std::error_code code;
-  for (fs::recursive_directory_iterator entry(folders.fixtures(), code), end; !code && entry != end;
-       entry.increment(code))
-    if (entry->path().extension() == ".yaml" && entry->is_regular_file(code))
-      names.push_back(fs::relative(entry->path(), folders.fixtures(), code)
-                          .replace_extension()
-                          .generic_string());
+  for (const fs::path& folder : {folders.fixtures(), folders.own}) {
+    if (folder.empty()) continue;
+    for (fs::recursive_directory_iterator entry(folder, code), end; !code && entry != end;
+         entry.increment(code))
+      if (entry->path().extension() == ".yaml" && entry->is_regular_file(code))
+        names.push_back(
+            fs::relative(entry->path(), folder, code).replace_extension().generic_string());
+  }
   std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;
 }
 
