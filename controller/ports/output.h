@@ -29,8 +29,14 @@ struct PortReport {
   std::uint64_t frames_sent = 0, frames_failed = 0, reconnects = 0;
 };
 
-/// One output port. `send` is called by one writer thread at the port's rate; it is real-time: no
-/// allocation, lock, log or throw. Everything that may fail slowly happens in `open`.
+/// One output port, used by one thread at a time. Of a port that never `blocks`, `send` is called
+/// by the output loop at the port's rate and is real-time: no allocation, lock, log, throw or wait.
+/// A port that `blocks` (a serial line, a bus, another daemon) gets a thread of its own, which
+/// calls everything: there `send` may wait for its device, and always gets the newest frame there
+/// is; those that came meanwhile are passed over. It must come back within about a second, so that
+/// the port can be closed. Everything that may fail slowly happens in `open`, which is called
+/// again, every two seconds at the latest, while the port's health is not good; it must not leave
+/// anything behind when it fails.
 class OutputPort {
  public:
   virtual ~OutputPort() = default;
@@ -40,6 +46,8 @@ class OutputPort {
   /// Says goodbye where the protocol knows how (sACN: three terminated packets) and closes.
   virtual void release(TimePoint now) = 0;
   virtual PortReport report() const = 0;
+  /// True when `send` may wait for its device. The same for the life of the port.
+  virtual bool blocks() const { return false; }
   /// True when bytes can reach real lamps: dry-run never opens such a port.
   virtual bool physical() const = 0;
 };

@@ -107,8 +107,17 @@ void Housekeeper::tell_changes() {
 /// rest of its work. The waits between the attempts double up to two seconds.
 void Housekeeper::mend_ports() {
   std::vector<PortSlot*> borrowed;
-  for (const auto& slot : show_->ports())
-    if (is_due_for_mending(*slot)) borrowed.push_back(slot.get());
+  for (const auto& slot : show_->ports()) {
+    PortWriter* const writer = slot->writer();
+    if (writer) say(writer->take_problems());
+    if ((writer && !writer->attempted()) || !is_due_for_mending(*slot)) continue;
+    if (writer) {
+      writer->mend();  // on its own thread: a device may take its time
+      wait_longer(*slot);
+    } else {
+      borrowed.push_back(slot.get());
+    }
+  }
   if (borrowed.empty()) return;
   for (PortSlot* slot : borrowed) slot->ask();
   const auto all_lent = [&] {
@@ -118,10 +127,14 @@ void Housekeeper::mend_ports() {
   for (PortSlot* slot : borrowed) {
     if (slot->lent()) (void)slot->port().open();
     slot->give_back();
-    Lost& lost = lost_.at(slot);
-    lost.wait = std::min(2 * lost.wait, kLastRetry);
-    lost.next = world_.clock.now() + lost.wait;
+    wait_longer(*slot);
   }
+}
+
+void Housekeeper::wait_longer(const PortSlot& slot) {
+  Lost& lost = lost_.at(&slot);
+  lost.wait = std::min(2 * lost.wait, kLastRetry);
+  lost.next = world_.clock.now() + lost.wait;
 }
 
 bool Housekeeper::is_due_for_mending(const PortSlot& slot) {

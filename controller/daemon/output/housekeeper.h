@@ -46,6 +46,7 @@ class Housekeeper {
   void tell_changes();
   void mend_ports();
   bool is_due_for_mending(const PortSlot& slot);
+  void wait_longer(const PortSlot& slot);
   void save_if_due();
   void save_now();
   void wait_a_tick();

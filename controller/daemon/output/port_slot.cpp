@@ -6,10 +6,12 @@
 namespace chiaro::daemon {
 
 PortSlot::PortSlot(std::string driver, drivers::OutputSettings settings,
-                   std::unique_ptr<ports::OutputPort> port, double rate_hz)
+                   std::unique_ptr<ports::OutputPort> port, double rate_hz, ports::Clock& clock,
+                   bool real_time)
     : driver_(std::move(driver)), settings_(std::move(settings)), port_(std::move(port)) {
   set_rate(rate_hz);
   health_ = port_->report().health;
+  if (port_->blocks()) writer_ = std::make_unique<PortWriter>(*port_, clock, real_time);
 }
 
 void PortSlot::set_rate(double rate_hz) {
@@ -36,14 +38,24 @@ void PortSlot::send(const ports::DmxFrame& frame, ports::Clock& clock) {
   const ports::TimePoint now = clock.now();
   tried_ = now;
   move_on(now);
-  if (away()) {
+  if (writer_) {
+    writer_->put(frame);
+    measure(now);
+  } else if (away()) {
     ++missed_;
     any_ = false;
-    return;
+  } else {
+    send_here(frame, now);
+    measure(now);
   }
+}
+
+void PortSlot::send_here(const ports::DmxFrame& frame, ports::TimePoint now) {
   port_->send(frame, now);
-  const ports::PortReport report = port_->report();
-  health_.store(report.health, std::memory_order_release);
+  health_.store(port_->report().health, std::memory_order_release);
+}
+
+void PortSlot::measure(ports::TimePoint now) {
   if (any_) jitter_.add((now - sent_) - period_);
   any_ = true;
   sent_ = now;
@@ -53,6 +65,11 @@ void PortSlot::send(const ports::DmxFrame& frame, ports::Clock& clock) {
     p99_ = jitter_.microseconds(0.99);
     p999_ = jitter_.microseconds(0.999);
   }
+}
+
+void PortSlot::release(ports::TimePoint now) {
+  writer_.reset();
+  port_->release(now);
 }
 
 void PortSlot::report(rig::Sent::Port& into) const {
@@ -65,7 +82,7 @@ void PortSlot::report(rig::Sent::Port& into) const {
   into.jitter_us_p999 = p999_;
   into.health = static_cast<std::uint8_t>(health());
   if (lending_.load(std::memory_order_acquire) != Lending::at_work) return;
-  const ports::PortReport report = port_->report();
+  const ports::PortReport report = writer_ ? writer_->report() : port_->report();
   into.frames = report.frames_sent;
   into.failed = report.frames_failed;
 }

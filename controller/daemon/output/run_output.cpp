@@ -112,6 +112,7 @@ Exit prepare_and_perform(const Arguments& arguments, ports::World& world) {
   core::Problems warnings = loaded->warnings;
   Show::Options options;
   options.dry_run = arguments.dry_run;
+  options.real_time = !arguments.no_real_time;
   options.cid = kept_cid(world.state_folder, warnings);
   const auto held =
       read_last_levels(world.state_folder / "last-levels.json", loaded->studio, warnings);

@@ -50,13 +50,15 @@ std::ptrdiff_t find_port(const Show* before, const PortPlan& plan) {
   return -1;
 }
 
-/// The port, open if it can be; in a dry run nothing that could reach a lamp is even made.
+/// The port, open if it can be without waiting for its device (else its own thread opens it); in a
+/// dry run nothing that could reach a lamp is even made.
 std::unique_ptr<ports::OutputPort> open_port(const PortPlan& plan, bool dry_run,
                                              ports::World& world, core::Problems& warnings) {
   auto port = drivers::make_output(plan.driver, plan.settings, world.network);
   if (port && dry_run && (*port)->physical())
     port = drivers::make_output("mock", plan.settings, world.network);
   if (!port) return nullptr;
+  if ((*port)->blocks()) return std::move(*port);
   if (const auto opened = (*port)->open(); !opened)
     for (core::Problem problem : opened.problems()) {
       problem.warning = true;
@@ -115,10 +117,11 @@ void Show::add_port(const studio::Output& output, const Options& options, ports:
   const auto universes = plan_.universes();
   frame_of_port_.push_back(static_cast<std::size_t>(
       std::lower_bound(universes.begin(), universes.end(), output.universe) - universes.begin()));
-  ports_.push_back(old >= 0 ? nullptr
-                            : std::make_unique<PortSlot>(
-                                  plan.driver, plan.settings,
-                                  open_port(plan, options.dry_run, world, warnings), plan.rate_hz));
+  ports_.push_back(
+      old >= 0 ? nullptr
+               : std::make_unique<PortSlot>(plan.driver, plan.settings,
+                                            open_port(plan, options.dry_run, world, warnings),
+                                            plan.rate_hz, world.clock, options.real_time));
 }
 
 void Show::take_over(Show& before) {

@@ -25,6 +25,7 @@ class Show {
  public:
   struct Options {
     bool dry_run = false;
+    bool real_time = false;  ///< threads of ports that wait for their device ask for a turn
     std::array<std::uint8_t, 16> cid{};
   };
   /// Opens what `before` does not have open already; warnings (a port that cannot be opened now is
