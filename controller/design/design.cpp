@@ -174,6 +174,8 @@ core::Result<Look> design(const studio::Studio& studio, const LayersSource& twin
   const auto moves = instructions(studio, studio::placed_rig(studio), look.wanted);
   look.instructions.insert(look.instructions.end(), moves.begin(), moves.end());
   warn_of_places(studio, layers, studio::placed_rig(studio), look.warnings);
+  if (const std::string mixed = mixed_light_in_words(studio, look.wanted); !mixed.empty())
+    look.warnings.push_back(mixed);
   look.trials = watch.trials();
   look.stopped_by_time = watch.stopped();
   look.seconds = watch.elapsed();

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "controller/core/light_units.h"
 #include "controller/core/picture.h"
 #include "controller/core/result.h"
 #include "controller/design/layers.h"
@@ -102,8 +103,7 @@ core::Result<Look> design(const studio::Studio& studio, const LayersSource& twin
 
 /// Ratio key:fill, each alone, incident at the aim; nothing when either is missing or dark.
 std::optional<double> key_fill_ratio(const studio::Studio& studio, const studio::Rig& rig);
-/// "47° camera left, 38° up, 1.6 m"
-std::string place_in_words(const core::Spherical& place);
+using core::place_in_words;
 
 /// look.json of the command-line contract (units in the names), and back. Pictures are not in it.
 std::string look_to_json(const studio::Studio& studio, const Look& look);

@@ -7,6 +7,7 @@
 #include "controller/design/colours.h"
 #include "controller/design/ideal.h"
 #include "controller/design/roles.h"
+#include "controller/design/words.h"
 
 namespace chiaro::design {
 namespace {
@@ -48,12 +49,6 @@ studio::Rig with_solved_levels(const Setting& setting, const studio::Rig& rig) {
   if (setting.variables.lit.empty()) return rig;
   return with_levels(setting.variables, rig,
                      Workspace(setting).solve(rig, Effort::thorough).levels);
-}
-
-bool is_flash(const studio::Fixture& fixture) {
-  return std::any_of(fixture.by_hand.begin(), fixture.by_hand.end(), [](const auto& binding) {
-    return binding.kind == studio::HandKind::flash_power && binding.dof == core::Dof::intensity;
-  });
 }
 
 /// Flash power is set in thirds of a stop: those lamps take the nearest, the others make up for it.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "controller/design/design.h"
 #include "controller/design/starts.h"
@@ -60,52 +59,6 @@ std::string by_hand(const studio::Fixture& fixture, const studio::HandBinding& b
 
 }  // namespace
 
-std::string number(double value, int decimals) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  std::string result = text;
-  if (result.find('.') != std::string::npos) {
-    result.erase(result.find_last_not_of('0') + 1);
-    if (result.back() == '.') result.pop_back();
-  }
-  return result == "-0" ? "0" : result;
-}
-
-std::string stops_in_words(double stops) {
-  const int thirds = static_cast<int>(std::lround(std::abs(stops) * 3));
-  static constexpr const char* kThird[] = {"", "⅓", "⅔"};
-  std::string words = thirds / 3 > 0 || thirds == 0 ? std::to_string(thirds / 3) : "";
-  words += kThird[thirds % 3];
-  return words + (thirds > 0 && thirds <= 3 ? " stop" : " stops");
-}
-
-std::string level_in_words(double level) {
-  return level >= 0.995 ? "full" : number(100 * level, level < 0.1 ? 1 : 0) + " %";
-}
-
-std::string flash_power_in_words(double level) {
-  if (level <= 0) return "off";
-  const int thirds = std::max(0, static_cast<int>(std::lround(-3 * std::log2(level))));
-  if (thirds == 0) return "full power";
-  static constexpr const char* kBelow[] = {"", " - ⅓", " - ⅔"};
-  const std::string whole = thirds / 3 == 0 ? "1/1" : "1/" + std::to_string(1 << (thirds / 3));
-  return whole + kBelow[thirds % 3] + " power";
-}
-
-std::string place_in_words(const core::Spherical& place) {
-  const double azimuth = core::degrees(std::remainder(place.azimuth, 2 * core::kPi));
-  const double elevation = core::degrees(place.elevation);
-  std::string words;
-  if (std::abs(azimuth) < 0.5)
-    words = "at the camera's azimuth";
-  else if (std::abs(azimuth) > 179.5)
-    words = "straight behind";
-  else
-    words = number(std::abs(azimuth), 0) + "° camera " + (azimuth < 0 ? "left" : "right");
-  words += ", " + number(std::abs(elevation), 0) + "° " + (elevation < -0.5 ? "down" : "up");
-  return words + ", " + number(place.distance, 2) + " m";
-}
-
 std::vector<std::string> instructions(const studio::Studio& studio, const studio::Rig& now,
                                       const studio::Rig& wanted) {
   std::vector<std::string> result;
@@ -151,6 +104,28 @@ std::string ratio_in_words(const studio::Studio& studio, const studio::Rig& rig)
   const double more = std::max(*ratio, 1 / *ratio);
   return (*ratio >= 1 ? "key to fill " : "fill to key ") + number(more, more < 10 ? 1 : 0) +
          ":1 (" + stops_in_words(std::log2(more)) + ")";
+}
+
+bool is_flash(const studio::Fixture& fixture) {
+  return std::any_of(fixture.by_hand.begin(), fixture.by_hand.end(), [](const auto& binding) {
+    return binding.kind == studio::HandKind::flash_power && binding.dof == core::Dof::intensity;
+  });
+}
+
+std::string mixed_light_in_words(const studio::Studio& studio, const studio::Rig& rig) {
+  std::string flashes, burning;
+  for (std::size_t i = 0; i < studio.fixtures.size(); ++i) {
+    if (rig.states[i].get(core::Dof::intensity) <= 0) continue;
+    std::string& names = is_flash(studio.fixtures[i]) ? flashes : burning;
+    names += (names.empty() ? "" : ", ") + studio.fixtures[i].name;
+  }
+  if (flashes.empty() || burning.empty()) return "";
+  const auto& shutter = studio.main_camera().shutter_s;
+  return "flash (" + flashes + ") and continuous light (" + burning +
+         ") are lit together: a longer shutter brightens the second alone, so keep it at " +
+         (shutter ? core::shutter_in_words(*shutter)
+                  : std::string("the time for which the outputs were measured")) +
+         ", or light with one kind";
 }
 
 }  // namespace chiaro::design

@@ -78,5 +78,23 @@ TEST(Ratio, IsIncidentAtTheFaceEachAlone) {
   EXPECT_FALSE(key_fill_ratio(studio, rig).has_value());
 }
 
+TEST(MixedLight, FlashAndContinuousTogetherAreSaid) {
+  studio::Studio studio = support::analytic_studio();
+  studio.fixtures = {support::fixed_lamp("flash", studio::Role::key, {0.8, -1.1, 2.3}, 3000),
+                     support::fixed_lamp("panel", studio::Role::fill, {-1, -0.9, 1.2}, 800)};
+  studio.fixtures[0].by_hand = {{core::Dof::intensity, studio::HandKind::flash_power, {}}};
+  studio::Rig rig = studio::placed_rig(studio);
+  rig.states[0].set(core::Dof::intensity, 0.5);
+  rig.states[1].set(core::Dof::intensity, 0);
+  EXPECT_EQ(mixed_light_in_words(studio, rig), "");
+  rig.states[1].set(core::Dof::intensity, 0.3);
+  const std::string words = mixed_light_in_words(studio, rig);
+  EXPECT_NE(words.find("flash (flash) and continuous light (panel)"), std::string::npos) << words;
+  studio.cameras.front().shutter_s = 1.0 / 125;
+  EXPECT_NE(mixed_light_in_words(studio, rig).find("1/125 s"), std::string::npos);
+  rig.states[0].set(core::Dof::intensity, 0);
+  EXPECT_EQ(mixed_light_in_words(studio, rig), "");
+}
+
 }  // namespace
 }  // namespace chiaro::design
