@@ -32,7 +32,7 @@ using Cell = std::variant<std::string, double>;
 struct Table {
   std::string name, title;
   std::vector<std::string> columns;  ///< with their units: "angle_deg"
-  std::vector<std::vector<Cell>> rows;
+  std::vector<std::vector<Cell>> rows{};
   bool shown = true;
 };
 
@@ -46,14 +46,14 @@ Drawing drawing(std::string name, const core::Landscape& landscape);
 /// Something that was asked for and whether it was found. `met` is empty where nothing is asked.
 struct Bar {
   std::string what, found, wanted;
-  std::optional<bool> met;
+  std::optional<bool> met{};
 };
 
 /// One row of the table that sets the thesis beside what was found here.
 struct Claim {
   std::string claim, thesis;       ///< what it says and its number, "-" where it gives none
   std::string printed, corrected;  ///< what its form as printed and the corrected one give here
-  std::optional<bool> agrees;      ///< empty: cannot be told from this run
+  std::optional<bool> agrees{};    ///< empty: cannot be told from this run
 };
 
 struct Findings {
