@@ -2,14 +2,21 @@
 #include "controller/design/moods.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <locale>
+#include <sstream>
 #include <yaml-cpp/yaml.h>
 
 #include "controller/core/picture_file.h"
+#include "controller/design/words.h"
 
 namespace chiaro::design {
 namespace {
 
-const std::vector<std::string> kKeys{"title", "sentence", "tags", "attainable", "targets"};
+const std::vector<std::string> kKeys{"title",         "sentence",   "tags",
+                                     "words",         "attainable", "sitter_turn",
+                                     "white_balance", "exposure",   "targets"};
 
 /// One mood.yaml; every complaint has a line.
 class MoodFile {
@@ -82,10 +89,63 @@ class MoodFile {
   void read_into(const YAML::Node& root, Mood& mood) {
     mood.title = get<std::string>(root["title"], "a title").value_or(mood.name);
     mood.sentence = get<std::string>(root["sentence"], "a sentence").value_or("");
-    mood.tags = get<std::vector<std::string>>(root["tags"], "a list of words")
-                    .value_or(std::vector<std::string>{});
+    if (root["tags"]) mood.tags = tags(root["tags"]);
+    mood.words = get<std::vector<std::string>>(root["words"], "a list of words")
+                     .value_or(std::vector<std::string>{});
+    mood.sitter_turn = core::radians(quantity(root["sitter_turn"], "deg", {-180, 180}).value_or(0));
+    if (const auto cct = quantity(root["white_balance"], "K", {1500, 20000}))
+      mood.white_balance = core::Kelvin{*cct};
+    mood.exposure_stops = quantity(root["exposure"], "stops", {-20, 20});
     mood.attainable = get<bool>(root["attainable"], "true or false").value_or(true);
     if (root["targets"]) mood.targets = targets(root["targets"]);
+  }
+  core::MoodTags tags(const YAML::Node& node) {
+    core::MoodTags said;
+    const auto& kinds = core::mood_tag_kinds();
+    std::vector<std::string> names;
+    for (const auto& kind : kinds) names.push_back(kind.name);
+    if (!node.IsMap()) {
+      complain(node, "tags name the light's pattern, tone, hardness and colour",
+               "tags: {pattern: loop, tone: mid key, hardness: hard, colour: warm}");
+      return said;
+    }
+    for (const auto& entry : node) {
+      const std::size_t kind = index_among(entry.first, "kind of tag", names);
+      if (kind == names.size()) continue;
+      const std::size_t word = index_among(entry.second, names[kind], kinds[kind].words);
+      if (word < kinds[kind].words.size()) said.at(kind) = kinds[kind].words[word];
+    }
+    return said;
+  }
+  /// The place of what stands there among `known`; known.size() after a complaint.
+  std::size_t index_among(const YAML::Node& node, const std::string& what,
+                          const std::vector<std::string>& known) {
+    const std::string word = node.IsScalar() ? node.Scalar() : "";
+    const auto found = std::find(known.begin(), known.end(), word);
+    if (found != known.end()) return static_cast<std::size_t>(found - known.begin());
+    const std::string near = core::nearest_name(word, known);
+    std::string all;
+    for (const std::string& each : known) all += (all.empty() ? "" : ", ") + each;
+    complain(node, "\"" + word + "\" is no " + what,
+             near.empty() ? "one of: " + all : "did you mean \"" + near + "\"?");
+    return known.size();
+  }
+  /// "12 deg": a number with the one unit that is expected here.
+  std::optional<double> quantity(const YAML::Node& node, const std::string& unit,
+                                 core::Range range) {
+    const auto text = get<std::string>(node, ("a number in " + unit).c_str());
+    if (!text) return std::nullopt;
+    std::istringstream words(*text);
+    words.imbue(std::locale::classic());
+    double value = 0;
+    std::string said, more;
+    if (words >> value >> said && said == unit && !(words >> more) && range.contains(value))
+      return value;
+    complain(node,
+             "expected a number in " + unit + ", from " + number(range.least, 0) + " to " +
+                 number(range.most, 0),
+             "write it as in \"" + number((range.least + range.most) / 2, 0) + " " + unit + "\"");
+    return std::nullopt;
   }
   measure::Targets targets(const YAML::Node& node) {
     measure::Targets targets;
@@ -111,6 +171,12 @@ class MoodFile {
 };
 
 }  // namespace
+
+std::string turn_in_words(double sitter_turn) {
+  const long turn = std::lround(core::degrees(sitter_turn));
+  if (turn == 0) return "";
+  return std::to_string(std::abs(turn)) + "° to camera " + (turn < 0 ? "left" : "right");
+}
 
 Moods load_moods(const std::filesystem::path& folder) {
   Moods result;

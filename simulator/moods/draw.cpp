@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <ostream>
 
@@ -23,7 +24,7 @@ struct Wish {
   std::vector<std::string> only;
   fs::path out;
   bool bust = false;
-  core::Size size{0, 0};
+  core::Size size = kDrawnSize;
   TraceOptions trace;
 };
 
@@ -52,7 +53,7 @@ core::Result<core::Done> write_mood(const fs::path& folder, const Recipe& recipe
   fs::create_directories(folder, error);
   if (auto written = core::write_png(folder / "picture.png", mood.picture); !written)
     return written;
-  return write_text(folder / "mood.yaml", mood_yaml(recipe, mood.targets));
+  return write_text(folder / "mood.yaml", mood_yaml(recipe, mood.measured));
 }
 
 /// One line per mood: its name, how far it is, what is left of the noise.
@@ -130,11 +131,40 @@ void declare(CLI::App& app, Wish& wish, std::vector<int>& size) {
   app.add_option("--threads", wish.trace.threads, "0 = all that the machine has")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  app.add_option("--size", size, "width and height; the studio camera's when not given")
+  app.add_option("--size", size, "width and height (480 360 when not given)")
       ->expected(2)
       ->check(CLI::Range(16, 8192));
   app.add_option("--out", wish.out, "folder for the moods; their own when not given");
   app.add_flag("--bust", wish.bust, "make config/subjects/bust.ply anew, and no picture");
+}
+
+/// Skin no further from the head's centre than this counts as the face, where it looks forward.
+constexpr double kFaceRadius = 0.13, kForward = 0.4;
+
+/// Mean illuminance of the front of the face against the camera's grey_card, in stops: what the
+/// picture shows there, divided by what it is made of.
+std::optional<double> exposure_of_face(const StudioSet& set, const core::GBuffer& view,
+                                       const core::Picture& picture) {
+  const core::AimFrame& aim = set.scene.geometry->aim;
+  const double facing = set.studio.subjects.front().facing;
+  const core::Vec3 front = core::unit(core::position(aim, {facing, 0, 1}) - aim.origin);
+  double lux = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < view.samples(); ++i) {
+    const core::Vec3 at{view.position_x[i], view.position_y[i], view.position_z[i]};
+    const core::Vec3 normal{view.normal_x[i], view.normal_y[i], view.normal_z[i]};
+    if (!view.objects[view.object[i] - 1u].subject ||
+        core::distance(at, aim.origin) > kFaceRadius || core::dot(normal, front) < kForward)
+      continue;
+    const double albedo =
+        core::luminance({view.diffuse_r[i], view.diffuse_g[i], view.diffuse_b[i]});
+    const auto x = static_cast<int>(view.pixel[i] % static_cast<std::uint32_t>(view.size.width));
+    const auto y = static_cast<int>(view.pixel[i] / static_cast<std::uint32_t>(view.size.width));
+    lux += core::luminance(picture.at(x, y)) / (albedo * set.scene.exposure_gain);
+    ++count;
+  }
+  if (count == 0 || lux <= 0) return std::nullopt;
+  return std::log2(lux / count / set.studio.exposure.grey_card.value);
 }
 
 }  // namespace
@@ -142,7 +172,6 @@ void declare(CLI::App& app, Wish& wish, std::vector<int>& size) {
 DrawnMood drawn(const StudioSet& set, core::Size size, const TraceOptions& options) {
   const auto tracer = std::make_shared<const render::Tracer>(set.scene.geometry);
   const studio::Camera& camera = set.studio.main_camera();
-  if (size.pixels() == 0) size = camera.size;
   const Traced picture = trace(*tracer, set.scene, camera, size, options);
   TraceOptions clean = options;
   clean.antialias = false;
@@ -153,7 +182,10 @@ DrawnMood drawn(const StudioSet& set, core::Size size, const TraceOptions& optio
   const core::Plane lit = render::visibility(view, set.scene.lights[set.key]);
   const measure::Components components =
       measure::components(measure::working_scalar(core::luminance(measured.picture)), map, &lit);
-  return {core::encoded(picture.picture), measure::targets_of(components, true), picture.noise};
+  return {core::encoded(picture.picture),
+          {measure::targets_of(components, true),
+           exposure_of_face(set, view.buffer, measured.picture), set.studio.exposure.white_balance},
+          picture.noise};
 }
 
 ports::Exit run_draw(const std::vector<std::string>& arguments, ports::World& world) {
@@ -161,6 +193,7 @@ ports::Exit run_draw(const std::vector<std::string>& arguments, ports::World& wo
                "chiaro-draw"};
   Wish wish;
   wish.trace.samples = 96;
+  wish.trace.most_bounced = 2;  // few bright specks: a reference is looked at
   std::vector<int> size;
   declare(app, wish, size);
   try {

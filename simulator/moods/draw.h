@@ -8,6 +8,7 @@
 
 #include "controller/measure/measure.h"
 #include "controller/ports/world.h"
+#include "simulator/moods/mood_file.h"
 #include "simulator/moods/studio_set.h"
 #include "simulator/path_tracer/path_tracer.h"
 
@@ -17,10 +18,11 @@ ports::Exit run_draw(const std::vector<std::string>& arguments, ports::World& wo
 
 struct DrawnMood {
   core::EncodedPicture picture;
-  measure::Targets targets;  ///< of the 3D exemplar: a clean 256 x 256 picture without antialiasing
-  double noise = 0;          ///< root mean square error of the picture's linear luminance
+  Measured measured;  ///< of the 3D exemplar: a clean 256 x 256 picture without antialiasing
+  double noise = 0;   ///< root mean square error of the picture's linear luminance
 };
-/// At the studio's main camera's size unless `size` is not empty.
+/// Smaller than the camera's picture: it is a reference to look at, and it is shipped.
+inline constexpr core::Size kDrawnSize{480, 360};
 DrawnMood drawn(const StudioSet& set, core::Size size, const TraceOptions& options);
 
 }  // namespace chiaro::simulator

@@ -20,18 +20,37 @@ void put(std::ostream& out, const char* name, const std::optional<double>& value
   if (value) out << "  " << name << ": " << *value << '\n';
 }
 
+/// [a, b]
+void put_list(std::ostream& out, const std::vector<std::string>& words) {
+  out << '[';
+  for (std::size_t i = 0; i < words.size(); ++i) out << (i > 0 ? ", " : "") << quoted(words[i]);
+  out << ']';
+}
+
+void put_words(std::ostream& out, const Recipe& recipe) {
+  out << "title: " << quoted(recipe.title) << "\nsentence: " << quoted(recipe.sentence)
+      << "\ntags: {";
+  const auto& kinds = core::mood_tag_kinds();
+  for (std::size_t k = 0; k < kinds.size(); ++k)
+    out << (k > 0 ? ", " : "") << kinds[k].name << ": " << quoted(recipe.tags.at(k));
+  out << "}\nwords: ";
+  put_list(out, recipe.words);
+  out << "\nattainable: " << (recipe.attainable ? "true" : "false") << '\n';
+}
+
 }  // namespace
 
-std::string mood_yaml(const Recipe& recipe, const measure::Targets& targets) {
+std::string mood_yaml(const Recipe& recipe, const Measured& measured) {
+  const measure::Targets& targets = measured.targets;
   std::ostringstream out;
   out.imbue(std::locale::classic());
-  out << "# Written by chiaro-draw from recipe.yaml: edit that, and draw again.\n"
-      << "title: " << quoted(recipe.title) << "\nsentence: " << quoted(recipe.sentence)
-      << "\ntags: [";
-  for (std::size_t i = 0; i < recipe.tags.size(); ++i)
-    out << (i > 0 ? ", " : "") << quoted(recipe.tags[i]);
-  out << "]\nattainable: " << (recipe.attainable ? "true" : "false") << "\ntargets:\n"
-      << std::setprecision(5);
+  out << "# Written by chiaro-draw from recipe.yaml: edit that, and draw again.\n";
+  put_words(out, recipe);
+  out << "sitter_turn: " << core::degrees(recipe.sitter_turn)
+      << " deg\nwhite_balance: " << measured.white_balance.value << " K\n"
+      << std::fixed << std::setprecision(2);
+  if (measured.exposure_stops) out << "exposure: " << *measured.exposure_stops << " stops\n";
+  out << std::defaultfloat << "targets:\n" << std::setprecision(5);
   put(out, "edge", targets.edge);
   put(out, "mean", targets.mean);
   put(out, "gradient", targets.gradient);

@@ -177,14 +177,28 @@ void read_studio(Section& top, Recipe& recipe, const studio::Folders& folders, R
 }
 
 void read_tags(Section& top, Recipe& recipe, Report& report) {
-  const Tree* tree = top.find("tags");
+  const Tree* tree =
+      top.need("tags", "{pattern: loop, tone: mid key, hardness: hard, colour: warm}");
+  if (tree == nullptr) return;
+  Section section(*tree, "tags", report);
+  const auto& kinds = core::mood_tag_kinds();
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    const Tree* said = section.need(kinds[k].name, kinds[k].words.front());
+    if (const auto word = word_among(said, kinds[k].words, report))
+      recipe.tags.at(k) = kinds[k].words[*word];
+  }
+  section.refuse_unknown();
+}
+
+void read_words(Section& top, Recipe& recipe, Report& report) {
+  const Tree* tree = top.find("words");
   if (tree == nullptr) return;
   if (tree->kind != Tree::Kind::sequence) {
-    report.error(*tree, "'tags' is a list of words", "[loop, low key, hard, warm]");
+    report.error(*tree, "'words' is a list of words", "[dramatic, painterly, serious]");
     return;
   }
   for (const Tree& item : tree->items)
-    if (const auto word = text(&item, report)) recipe.tags.push_back(*word);
+    if (const auto word = text(&item, report)) recipe.words.push_back(*word);
 }
 
 }  // namespace
@@ -200,9 +214,12 @@ core::Result<Recipe> parse_recipe(const std::string& yaml, const std::string& fi
   into(recipe.title, text(top.need("title", "Rembrandt"), report));
   into(recipe.sentence, text(top.need("sentence", "One sentence for people."), report));
   read_tags(top, recipe, report);
+  read_words(top, recipe, report);
   into(recipe.attainable, yes_or_no(top.find("attainable"), report));
   read_studio(top, recipe, folders, report);
   into(recipe.sitter_turn, quantity(top.find("sitter_turn"), Measure::angle, kTurn, report));
+  if (const auto cct = quantity(top.find("white_balance"), Measure::temperature, kWhites, report))
+    recipe.white_balance = core::Kelvin{*cct};
   read_surfaces(top, recipe, report);
   read_ambient(top, recipe, report);
   read_lamps(top, recipe, report);

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "controller/core/mood_tags.h"
 #include "controller/core/result.h"
 #include "controller/studio/load.h"
 #include "controller/studio/studio.h"
@@ -38,10 +39,12 @@ struct RecipeLamp {
 
 struct Recipe {
   std::string title, sentence;
-  std::vector<std::string> tags;
-  bool attainable = true;  ///< by the lamps of its studio
+  core::MoodTags tags;             ///< all four are said
+  std::vector<std::string> words;  ///< what people would search it by
+  bool attainable = true;          ///< by the lamps of its studio
   std::filesystem::path studio;
-  double sitter_turn = 0;                     ///< radians, added to the studio's facing
+  double sitter_turn = 0;  ///< radians, added to the studio's facing; negative: camera left
+  std::optional<core::Kelvin> white_balance;  ///< the camera's; else the studio's
   std::map<std::string, core::Rgb> surfaces;  ///< background planes painted anew
   std::optional<studio::Ambient> ambient;
   std::vector<RecipeLamp> lamps;  ///< the first key is what `below_key` refers to

@@ -59,6 +59,7 @@ core::Problems dress(studio::Studio& studio, const Recipe& recipe) {
   core::Problems problems;
   studio.fixtures.clear();
   if (recipe.ambient) studio.ambient = recipe.ambient;
+  if (recipe.white_balance) studio.exposure.white_balance = *recipe.white_balance;
   for (studio::Subject& subject : studio.subjects) subject.facing += recipe.sitter_turn;
   for (const auto& [name, colour] : recipe.surfaces) {
     bool found = false;

@@ -52,8 +52,8 @@ int sixteen(const std::vector<int>& levels, std::size_t address) {
 }
 
 /// Whether the wire carries what look.json promises for the places that it wants. The bytes are
-/// worked out by hand from config/fixtures: bicolour-panel in 4ch-16bit has a linear 16-bit level
-/// and a 16-bit CCT from 2700 to 6500 K; the back light one linear 8-bit level; the wall's RGBW has
+/// worked out by hand from config/fixtures: tunable-panel in 4ch-16bit has a linear 16-bit level
+/// and a 16-bit CCT from 2000 to 20000 K; the back light one linear 8-bit level; the wall's RGBW has
 /// no dimmer of its own, so that each emitter carries the level.
 bool carries(const std::vector<int>& levels, const Json& look) {
   if (levels.size() != 512) return false;
@@ -65,7 +65,7 @@ bool carries(const std::vector<int>& levels, const Json& look) {
   for (const auto& [name, address] : {std::pair{"key", 1u}, std::pair{"fill", 5u}}) {
     const auto& wanted = fixtures[name]["wanted"];
     near(sixteen(levels, address), 65535 * wanted.value("intensity", -1.0));
-    near(sixteen(levels, address + 2), 65535 * (wanted.value("cct_k", 0.0) - 2700) / 3800);
+    near(sixteen(levels, address + 2), 65535 * (wanted.value("cct_k", 0.0) - 2000) / 18000);
   }
   near(levels[8], 255 * fixtures["back"]["wanted"].value("intensity", -1.0));
   const auto& wall = fixtures["wall"]["wanted"];

@@ -161,7 +161,8 @@ void Brain::renew_state() {
                           false});
   s.moods.clear();
   for (const design::Mood& mood : moods_.moods)
-    s.moods.push_back({mood.name, mood.title, mood.sentence, mood.tags, mood.attainable, false});
+    s.moods.push_back(
+        {mood.name, mood.title, mood.sentence, mood.tags.words(), mood.attainable, false});
   for (const store::MoodRecord& mood : store_->moods())
     s.moods.push_back({mood.name, mood.title, "Your own picture", {}, true, true});
   s.can_undo = !history_.empty();

@@ -40,7 +40,7 @@ TEST_F(CheckCommand, PrintsThePatchSheetOfTheShippedStudio) {
   EXPECT_EQ(fake_.err.str(), "");
   const std::string sheet = fake_.out.str();
   EXPECT_NE(
-      sheet.find("key      key         generic/bicolour-panel 4ch-16bit  1.001-004  14000 cd, "
+      sheet.find("key      key         generic/tunable-panel 4ch-16bit  1.001-004  14000 cd, "
                  "bare  stand, 45° camera left, 35° up, 1.80 m\n"),
       std::string::npos)
       << sheet;

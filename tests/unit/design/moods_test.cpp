@@ -30,7 +30,9 @@ class MoodFolder : public testing::Test {
 TEST_F(MoodFolder, LoadsInNameOrderWithEverything) {
   add("split", "title: Split\n");
   add("low-key",
-      "title: Low key\nsentence: Out of the dark.\ntags: [dark, hard]\nattainable: false\n"
+      "title: Low key\nsentence: Out of the dark.\ntags: {pattern: short, tone: low key}\n"
+      "words: [dark, quiet]\nattainable: false\nsitter_turn: -35 deg\nwhite_balance: 3200 K\n"
+      "exposure: -1.25 stops\n"
       "targets: {mean: 40.5, edge: 0.7}\n");
   const Moods moods = load_moods(folder_);
   EXPECT_TRUE(moods.problems.empty()) << core::to_string(moods.problems);
@@ -39,7 +41,11 @@ TEST_F(MoodFolder, LoadsInNameOrderWithEverything) {
   EXPECT_EQ(low.name, "low-key");
   EXPECT_EQ(low.title, "Low key");
   EXPECT_EQ(low.sentence, "Out of the dark.");
-  EXPECT_EQ(low.tags, (std::vector<std::string>{"dark", "hard"}));
+  EXPECT_EQ(low.tags.words(), (std::vector<std::string>{"short", "low key"}));
+  EXPECT_EQ(low.words, (std::vector<std::string>{"dark", "quiet"}));
+  EXPECT_NEAR(low.sitter_turn, core::radians(-35), 1e-12);
+  EXPECT_EQ(low.white_balance->value, 3200);
+  EXPECT_EQ(low.exposure_stops, -1.25);
   EXPECT_FALSE(low.attainable);
   ASSERT_TRUE(low.targets.has_value());
   EXPECT_EQ(low.targets->mean, 40.5);
@@ -60,6 +66,28 @@ TEST_F(MoodFolder, ABrokenMoodIsAProblemWithItsPlaceAndTheOthersLoad) {
   EXPECT_EQ(moods.problems[0].where.line, 2);
   EXPECT_EQ(moods.problems[0].remedy, "did you mean \"sentence\"?");
   EXPECT_EQ(moods.problems[1].where.line, 3);
+}
+
+TEST_F(MoodFolder, TagsAndQuantitiesAreChecked) {
+  add("a", "tags: {pattern: rembrant}\n");
+  add("b", "tags: [loop, warm]\n");
+  add("c", "tags: {patern: loop}\n");
+  add("d", "sitter_turn: 35\n");
+  add("e", "white_balance: 3200 lx\n");
+  add("f", "exposure: 50 stops\n");
+  const Moods moods = load_moods(folder_);
+  EXPECT_TRUE(moods.moods.empty());
+  ASSERT_EQ(moods.problems.size(), 6u) << core::to_string(moods.problems);
+  EXPECT_EQ(moods.problems[0].remedy, "did you mean \"rembrandt\"?");
+  EXPECT_EQ(moods.problems[0].where.column, 17);
+  EXPECT_EQ(moods.problems[2].remedy, "did you mean \"pattern\"?");
+  EXPECT_NE(moods.problems[3].what.find("a number in deg"), std::string::npos);
+}
+
+TEST(TurnInWords, SaysTheSideAndNothingWhenTheSitterFacesTheCamera) {
+  EXPECT_EQ(turn_in_words(core::radians(-35)), "35° to camera left");
+  EXPECT_EQ(turn_in_words(core::radians(20)), "20° to camera right");
+  EXPECT_EQ(turn_in_words(0.001), "");
 }
 
 TEST_F(MoodFolder, GivesAGoalWithItsPictureAndTargets) {
