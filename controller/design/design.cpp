@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "controller/design/align.h"
 #include "controller/design/colours.h"
 #include "controller/design/exposure.h"
 #include "controller/design/judge.h"
+#include "controller/design/match.h"
 #include "controller/design/roles.h"
 #include "controller/design/stages.h"
 #include "controller/design/words.h"
@@ -46,31 +46,6 @@ studio::Rig wanted_placements(const studio::Studio& studio, const Sizes& sizes, 
   return all.base;
 }
 
-/// The exemplar shifted and scaled to lie on our subject, by what a first rough rig shows.
-Goal aligned(const studio::Studio& studio, const LayersSource& twin, const Goal& goal,
-             const Options& options, const Variables& all, Watch& watch) {
-  const auto* example = std::get_if<ExampleGoal>(&goal);
-  if (example == nullptr || !options.align) return goal;
-  const Layers& layers = twin.at(options.search_size);
-  const Sizes rough = prepare(studio, goal, all, layers, layers, layers);
-  const Setting setting{studio, layers, all, rough.small.target, rough.small.map, Accuracy::cached};
-  Options few = options;
-  few.trials = std::max<std::uint64_t>(
-      1, (options.trials > 0 ? options.trials : default_trials(all.moving.size())) / 3);
-  const std::vector<Found> basins = search(setting, few, watch);
-  Workspace workspace(setting);
-  const studio::Rig places = std::isfinite(basins.front().cost) && !all.moving.empty()
-                                 ? all.rig(basins.front().point)
-                                 : all.base;
-  core::Plane ours;
-  const auto levels = workspace.solver().solve(workspace.columns(places), Effort::quick).values;
-  mix(workspace.columns(places), levels, ours);
-  ExampleGoal moved = *example;
-  moved.exemplar = seen_through(example->exemplar,
-                                best_window(example->exemplar, ours, options.seed), kMeasuredSize);
-  return moved;
-}
-
 void warn_of_places(const studio::Studio& studio, const Layers& layers, const studio::Rig& placed,
                     std::vector<std::string>& warnings) {
   for (std::size_t i = 0; i < studio.fixtures.size(); ++i) {
@@ -80,8 +55,9 @@ void warn_of_places(const studio::Studio& studio, const Layers& layers, const st
   }
 }
 
-void describe(const studio::Studio& studio, const Prepared& full, const Variables& all,
-              Look& look) {
+/// `shown`: what the camera will see; `full` may show our subject in another's skin.
+void describe(const studio::Studio& studio, const Layers& shown, const Prepared& full,
+              const Variables& all, Look& look) {
   const Variables lamps = judged(studio, full.target, all, look.wanted);
   const Setting setting{studio, full.layers, lamps, full.target, full.map, Accuracy::exact};
   Workspace workspace(setting);
@@ -90,10 +66,10 @@ void describe(const studio::Studio& studio, const Prepared& full, const Variable
   look.cost = workspace.score(look.wanted).cost;
   look.placed_judgement =
       look.placed == look.wanted ? look.judgement : judge(setting, workspace, look.placed);
-  look.picture = predicted(studio, full.layers, look.wanted, Accuracy::exact);
+  look.picture = predicted(studio, shown, look.wanted, Accuracy::exact);
   look.placed_picture = look.placed == look.wanted
                             ? look.picture
-                            : predicted(studio, full.layers, look.placed, Accuracy::exact);
+                            : predicted(studio, shown, look.placed, Accuracy::exact);
 }
 
 /// Where the lamps stand now; held ones also shine as the design holds them.
@@ -131,8 +107,8 @@ core::Rgb advised_exposure(const studio::Studio& studio, const Prepared& full, L
 }
 
 /// Solves again for the advised exposure, where there is one; the places stay.
-void advise_exposure(const studio::Studio& studio, const Sizes& sizes, const Goal& goal,
-                     const Variables& all, Watch& watch, Look& look) {
+void advise_exposure(const studio::Studio& studio, const Layers& shown, const Sizes& sizes,
+                     const Goal& goal, const Variables& all, Watch& watch, Look& look) {
   const core::Rgb factor = advised_exposure(studio, sizes.full, look);
   if (factor == core::Rgb{1, 1, 1}) return;
   const ReexposedLayers small(sizes.small.layers, factor), middle(sizes.middle.layers, factor),
@@ -140,7 +116,7 @@ void advise_exposure(const studio::Studio& studio, const Sizes& sizes, const Goa
   const Sizes again = prepare(studio, goal, all, small, middle, full);
   look.wanted = completed(studio, again, all, look.wanted, false, watch);
   look.placed = completed(studio, again, all, look.placed, false, watch);
-  describe(studio, again.full, all, look);
+  describe(studio, ReexposedLayers(shown, factor), again.full, all, look);
 }
 
 }  // namespace
@@ -158,18 +134,22 @@ core::Result<Look> design(const studio::Studio& studio, const LayersSource& twin
   look.seed = options.seed;
 
   const Variables all = variables_of(studio, options);
-  const Goal goal = aligned(studio, twin, asked, options, all, watch);
+  const Match match = matched(studio, twin, asked, options, all, watch);
+  const Goal& goal = match.goal;
+  look.mirrored = match.mirrored;
+  look.warnings = match.words;
+  const Compared compared(twin, match.skin);
   const Layers& layers = twin.at(options.full_size);
-  const Sizes sizes = prepare(studio, goal, all, twin.at(options.search_size),
-                              twin.at(options.polish_size), layers);
+  const Sizes sizes = prepare(studio, goal, all, compared.at(options.search_size),
+                              compared.at(options.polish_size), compared.at(options.full_size));
   const studio::Rig placements =
       wanted_placements(studio, sizes, goal, options, all, watch, look.warnings);
   look.wanted = options.reference
                     ? reference_rig(studio, goal, options, all, sizes.full, watch)
                     : completed(studio, sizes, all, placements, options.move_stands, watch);
   look.placed = completed(studio, sizes, all, placed_now(studio, all), false, watch);
-  describe(studio, sizes.full, all, look);
-  if (options.advise_exposure) advise_exposure(studio, sizes, goal, all, watch, look);
+  describe(studio, layers, sizes.full, all, look);
+  if (options.advise_exposure) advise_exposure(studio, layers, sizes, goal, all, watch, look);
 
   const auto moves = instructions(studio, studio::placed_rig(studio), look.wanted);
   look.instructions.insert(look.instructions.end(), moves.begin(), moves.end());

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -24,6 +25,7 @@ struct IdealGoal {
   measure::TermWeights weights;
 };
 enum class Objective { perceptual, wavelet };
+struct Matched;  // pattern.h
 /// Like this picture. `targets3d` comes with a 3D exemplar, whose geometry was known.
 struct ExampleGoal {
   std::string name;  ///< of the mood, or the file
@@ -31,6 +33,10 @@ struct ExampleGoal {
   Objective objective = Objective::wavelet;
   std::optional<measure::Targets> targets3d;
   measure::TermWeights weights;
+  /// The shipped sitter before the shipped studio's camera, as chiaro-draw draws moods: face and
+  /// skin are known.
+  bool drawn_here = false;
+  std::shared_ptr<const Matched> matched;  ///< the engine's own: callers leave it null
 };
 using Goal = std::variant<IdealGoal, ExampleGoal>;
 
@@ -43,13 +49,18 @@ struct Progress {
 struct Options {
   std::string optimiser = "sbplx";
   std::uint64_t seed = 1;
-  std::uint64_t trials = 0;  ///< 0 = a default by the number of moving DOFs
+  std::uint64_t trials = 0;          ///< 0 = a default by the number of moving DOFs
   std::optional<double> budget_s;    ///< searching stops at 70 % of it: the rest finishes the look
   std::vector<std::string> locked;   ///< fixtures that keep their placed state
   std::optional<studio::Rig> start;  ///< warm start
   bool move_stands = true;           ///< false: solve levels and colours for the placed rig only
   bool advise_exposure = false;
-  bool align = false;      ///< by example: shift and scale the exemplar to lie on the subject
+  /// By example: lay the exemplar on the subject, by its face or its outline; mirrored where its
+  /// sitter is turned the other way. Both of these off is the thesis.
+  bool align = false;
+  /// By example: compare how the light falls on the face, whatever the skin, the clothes and the
+  /// background; see pattern.h. Levels then do not depend on our sitter's skin.
+  bool normalise = false;
   bool reference = false;  ///< yardstick: no cache, one thread, levels searched
   /// Squares whose side is a power of two. Search: where tracing is cheapest. Polish: the best few
   /// basins. Full: the last levels, colours and verdicts, exact visibility.
@@ -88,6 +99,7 @@ struct Look {
   std::vector<std::string>
       instructions;  ///< for a person: "move key to 47° camera left, 38° up, 1.6 m"
   std::vector<std::string> warnings;
+  bool mirrored = false;                  ///< the reference picture was taken mirrored
   core::Picture picture, placed_picture;  ///< predictions at full size, display-linear
   std::string goal, optimiser;
   std::uint64_t seed = 0, trials = 0;

@@ -87,8 +87,11 @@ class GeometricLayers : public Layers {
   std::string infeasible(const studio::Rig& rig, std::size_t fixture) const override {
     return twin::infeasible(twin_.studio, *twin_.geometry, rig, fixture);
   }
+  std::unique_ptr<Layers> with_skin(core::Rgb diffuse) const override;
 
- private:
+  const Twin& twin() const { return twin_; }
+  const render::View& view() const { return view_; }
+
   twin::Light light(std::size_t fixture, const core::FixtureState& state) const {
     return twin::light(twin_.studio.fixtures[fixture], state, twin_.geometry->aim,
                        twin_.studio.exposure.white_balance);
@@ -114,6 +117,7 @@ class GeometricLayers : public Layers {
     f(lit, *visible);
   }
 
+ private:
   /// The few lamps last traced exactly; a lamp's colour and level do not change what sees it.
   std::shared_ptr<const Remembered> remembered(std::size_t fixture, const core::FixtureState& state,
                                                const twin::Light& lit) const {
@@ -144,17 +148,21 @@ class GeometricLayers : public Layers {
     return traced;
   }
 
+  core::Picture make_ambient() const { return ambient_of(view_); }
+
+ public:
   /// Uncontrolled practicals burn as the file says, whatever is designed.
-  core::Picture make_ambient() const {
+  core::Picture ambient_of(const render::View& view) const {
     const studio::Studio& studio = twin_.studio;
     twin::Scene scene = twin::lit_by(studio, twin_.geometry, studio::placed_rig(studio));
     for (std::size_t i = 0; i < studio.fixtures.size(); ++i)
       if (studio.fixtures[i].controlled) scene.levels[i] = 0;
-    if (twin_.measured_ambient.red.empty()) return render::picture(view_, scene);
+    if (twin_.measured_ambient.red.empty()) return render::picture(view, scene);
     // A measured frame holds the practicals already.
-    return core::resized(twin_.measured_ambient, view_.buffer.size);
+    return core::resized(twin_.measured_ambient, view.buffer.size);
   }
 
+ private:
   const Twin& twin_;
   render::View view_;
   core::GeometryPlanes planes_;
@@ -166,6 +174,54 @@ class GeometricLayers : public Layers {
       std::pair<std::pair<std::size_t, core::FixtureState>, std::shared_ptr<const Remembered>>>
       recent_;  ///< newest first
 };
+
+/// Shadows are the same whatever the skin: they are asked of the view it was taken from.
+class WithSkin : public Layers {
+ public:
+  WithSkin(const GeometricLayers& bare, core::Rgb diffuse) : bare_(bare), view_(bare.view()) {
+    core::GBuffer& buffer = view_.buffer;
+    for (std::size_t i = 0; i < buffer.samples(); ++i) {
+      if (!buffer.objects[buffer.object[i] - 1u].subject) continue;
+      buffer.diffuse_r[i] = static_cast<float>(diffuse.r);
+      buffer.diffuse_g[i] = static_cast<float>(diffuse.g);
+      buffer.diffuse_b[i] = static_cast<float>(diffuse.b);
+    }
+    view_.samples = std::make_shared<const render::Samples>(buffer);
+    ambient_ = bare.ambient_of(view_);
+  }
+
+  core::Size size() const override { return bare_.size(); }
+  const core::GeometryPlanes* geometry() const override { return bare_.geometry(); }
+  const core::Picture& ambient() const override { return ambient_; }
+  void luminance(std::size_t fixture, const core::FixtureState& state, Accuracy accuracy,
+                 core::Plane& out) const override {
+    bare_.with_visible(fixture, state, accuracy, [&](const twin::Light& light, const auto& seen) {
+      render::luminance(view_, light, bare_.twin().gain, &seen, out);
+    });
+  }
+  void colour(std::size_t fixture, const core::FixtureState& state, Accuracy accuracy,
+              core::Layer& out) const override {
+    bare_.with_visible(fixture, state, accuracy, [&](const twin::Light& light, const auto& seen) {
+      render::colour(view_, light, bare_.twin().gain, &seen, out);
+    });
+  }
+  void visibility(std::size_t fixture, const core::FixtureState& state, Accuracy accuracy,
+                  core::Plane& out) const override {
+    bare_.visibility(fixture, state, accuracy, out);
+  }
+  std::string infeasible(const studio::Rig& rig, std::size_t fixture) const override {
+    return bare_.infeasible(rig, fixture);
+  }
+
+ private:
+  const GeometricLayers& bare_;
+  render::View view_;
+  core::Picture ambient_;
+};
+
+std::unique_ptr<Layers> GeometricLayers::with_skin(core::Rgb diffuse) const {
+  return std::make_unique<WithSkin>(*this, diffuse);
+}
 
 class GeometricSource : public LayersSource {
  public:

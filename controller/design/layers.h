@@ -38,9 +38,14 @@ class Layers {
   /// Fraction of the lamp that each pixel sees, 0..1, cast shadows only.
   virtual void visibility(std::size_t fixture, const core::FixtureState& state, Accuracy accuracy,
                           core::Plane& out) const = 0;
+  /// The same view of a subject of one diffuse colour all over, gloss as it is; null where the
+  /// twin does not know what is skin and what is light. Borrows this.
+  virtual std::unique_ptr<Layers> with_skin(core::Rgb diffuse) const;
   /// Empty when the fixture may stand there with the others as in `rig`; else why not.
   virtual std::string infeasible(const studio::Rig& rig, std::size_t fixture) const = 0;
 };
+
+inline std::unique_ptr<Layers> Layers::with_skin(core::Rgb) const { return nullptr; }
 
 /// Layers at several sizes of one twin: search small, polish full.
 class LayersSource {

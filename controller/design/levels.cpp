@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "controller/design/levels.h"
 
+#include "controller/design/pattern.h"
 #include "controller/design/perceptual_levels.h"
 #include "controller/design/wavelet_levels.h"
 
 namespace chiaro::design {
 
 std::unique_ptr<LevelSolver> level_solver(const Target& target, const measure::PixelMap& map) {
+  if (target.kind == Target::Kind::pattern) return std::make_unique<PatternLevels>(*target.pattern);
   if (target.kind == Target::Kind::wavelet) return std::make_unique<WaveletLevels>(target);
   return std::make_unique<PerceptualLevels>(target, map);
 }

@@ -205,6 +205,7 @@ core::Result<ExampleGoal> goal_of(const Mood& mood, Objective objective) {
   goal.exemplar = core::linear(*picture);
   goal.objective = objective;
   goal.targets3d = mood.targets;
+  goal.drawn_here = mood.targets.has_value();
   return goal;
 }
 

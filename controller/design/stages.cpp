@@ -84,7 +84,7 @@ studio::Rig by_example(const Setting& setting, const studio::Rig& placements) {
 }
 
 Prepared prepared(const Layers& layers, const Goal& goal) {
-  Prepared result{layers, target_of(goal, layers.size()), {}};
+  Prepared result{layers, target_of(goal, layers.size(), layers.geometry()), {}};
   result.map = map_for(layers, result.target);
   return result;
 }

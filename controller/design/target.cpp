@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "controller/design/pattern.h"
+
 namespace chiaro::design {
 namespace {
 
@@ -92,7 +94,7 @@ core::Problems problems_of(const Goal& goal, bool twin_has_geometry) {
   return problems;
 }
 
-Target target_of(const Goal& goal, core::Size size) {
+Target target_of(const Goal& goal, core::Size size, const core::GeometryPlanes* planes) {
   if (const auto* ideal = std::get_if<IdealGoal>(&goal)) return ideal_target(*ideal, size);
   const auto& example = std::get<ExampleGoal>(goal);
   Target target;
@@ -108,6 +110,10 @@ Target target_of(const Goal& goal, core::Size size) {
   target.weights = example.weights;
   target.by_geometry = example.targets3d.has_value();
   target.targets = targets_for(example, exemplar, target);
+  if (example.matched && target.kind == Target::Kind::wavelet) {
+    target.kind = Target::Kind::pattern;
+    target.pattern = std::make_shared<const Pattern>(pattern_of(*example.matched, planes, size));
+  }
   return target;
 }
 

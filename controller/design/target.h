@@ -13,8 +13,10 @@ namespace chiaro::design {
 /// targets of 3D exemplars are measured on pictures of 256 x 256.
 inline constexpr core::Size kMeasuredSize{256, 256};
 
+struct Pattern;  // pattern.h
+
 struct Target {
-  enum class Kind { ideal, perceptual, wavelet };
+  enum class Kind { ideal, perceptual, wavelet, pattern };
   Kind kind = Kind::ideal;
   core::Size size;
 
@@ -33,6 +35,7 @@ struct Target {
   /// True: components are measured on the view's own pixel types; false: on every pixel, as a 2D
   /// exemplar's were [I-19, I-29].
   bool by_geometry = false;
+  std::shared_ptr<const Pattern> pattern;  ///< of Kind::pattern
 };
 
 /// Every reason why a goal cannot be worked with (an empty exemplar, no geometry for ideal).
@@ -42,6 +45,7 @@ core::Problems problems_of(const Goal& goal, bool twin_has_geometry);
 /// from the same camera then lies pixel on pixel.
 /// Precondition: problems_of() is empty. Ideal targets for gradient and contrast are only defaults:
 /// they depend on what the scene can show, see ideal.h.
-Target target_of(const Goal& goal, core::Size size);
+/// `planes`: of the view at that size, for goals whose exemplar was matched; may be null.
+Target target_of(const Goal& goal, core::Size size, const core::GeometryPlanes* planes = nullptr);
 
 }  // namespace chiaro::design

@@ -188,7 +188,8 @@ PreparedMesh prepared(RawMesh raw) {
                                         : smooth_normals(shape);
   const bool textured = raw.texture_coordinates.size() / 2 == raw.vertices();
   PreparedMesh out;
-  Welder<8> welder(shape.points.size());
+  // Each corner may have a normal of its own: where every edge is sharp all of them differ.
+  Welder<8> welder(raw.indices.size());
   out.indices.reserve(raw.indices.size());
   for (std::size_t c = 0; c < raw.indices.size(); ++c) {
     const auto& p = shape.points[shape.corners[c]];

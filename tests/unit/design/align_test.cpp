@@ -17,22 +17,23 @@ core::Picture lit_ball(core::Size size) {
   return support::photographed(studio, support::AnalyticSource(studio), rig, size);
 }
 
-TEST(Align, FindsAShiftAndAScale) {
-  const core::Picture ball = lit_ball({128, 128});
-  const Window hidden{0.58, 0.45, 1.2};
-  const core::Picture moved = seen_through(ball, hidden, {128, 128});
-  const Window found = best_window(ball, core::luminance(core::resized(moved, {64, 64})), 1);
-  EXPECT_NEAR(found.x, hidden.x, 0.02);
-  EXPECT_NEAR(found.y, hidden.y, 0.02);
-  EXPECT_NEAR(found.side, hidden.side, 0.04);
+TEST(Align, AWindowLaysFaceOnFace) {
+  const FaceBox ours{0.5, 0.43, 0.26}, theirs{0.7, 0.3, 0.13};
+  const Window window = window_for(ours, theirs);
+  EXPECT_NEAR(window.side, 0.5, 1e-12);
+  // Where our face is, the window shows theirs.
+  EXPECT_NEAR(window.x + window.side * (ours.x - 0.5), theirs.x, 1e-12);
+  EXPECT_NEAR(window.y + window.side * (ours.y - 0.5), theirs.y, 1e-12);
+  EXPECT_NEAR(window_for(ours, ours).side, 1, 1e-12);
 }
 
-TEST(Align, LeavesAPictureThatLiesRightAlone) {
-  const core::Picture ball = lit_ball({128, 128});
-  const Window found = best_window(ball, core::luminance(core::resized(ball, {64, 64})), 1);
-  EXPECT_EQ(found.x, 0.5);
-  EXPECT_EQ(found.y, 0.5);
-  EXPECT_EQ(found.side, 1);
+TEST(Align, AMirroredWindowExchangesLeftAndRight) {
+  core::Picture two(core::Size{2, 2});
+  two.set(0, 0, {1, 1, 1});
+  two.set(0, 1, {1, 1, 1});
+  const core::Picture seen = seen_through(two, {0.5, 0.5, 1, true}, {2, 2});
+  EXPECT_FLOAT_EQ(seen.red.at(0, 0), 0);
+  EXPECT_FLOAT_EQ(seen.red.at(1, 0), 1);
 }
 
 TEST(Align, TheWholeSquareIsThePictureItself) {

@@ -76,6 +76,27 @@ TEST_F(MeshFile, SharpEdgesKeepTheirFacesFlat) {
                     mesh->normals[3 * mesh->indices[t + static_cast<std::size_t>(k)] + axis], 1e-6);
 }
 
+TEST_F(MeshFile, EveryCornerMayHaveANormalOfItsOwn) {
+  // A crumpled sheet: far more different corners than points. It used to be read for ever.
+  constexpr int kSide = 24;
+  std::string points, faces;
+  int triangles = 0;
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x) {
+      points += std::to_string(x) + " " + std::to_string(y) + " " +
+                std::to_string((x * 7 + y * 13) % 11 * 3) + "\n";
+      if (x + 1 == kSide || y + 1 == kSide) continue;
+      const int a = y * kSide + x, b = a + 1, c = a + kSide, d = c + 1;
+      faces += "3 " + std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(d) +
+               "\n3 " + std::to_string(a) + " " + std::to_string(d) + " " + std::to_string(c) +
+               "\n";
+      triangles += 2;
+    }
+  const auto mesh = load("sheet.ply", ascii_ply(points, kSide * kSide, faces, triangles));
+  ASSERT_TRUE(mesh) << core::to_string(mesh.problems());
+  EXPECT_GT(mesh->positions.size() / 3, 2u * kSide * kSide + 16);
+}
+
 TEST_F(MeshFile, RoundThingsGetSmoothNormals) {
   support::write_ply(folder.path() / "ball.ply", support::icosphere({}, 2, 3));
   const auto mesh = load_mesh(folder.path() / "ball.ply", {});
