@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "controller/daemon/box_words.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
+#include <vector>
 
 namespace chiaro::daemon {
 namespace {
@@ -30,6 +32,15 @@ class Put {
   template <class T>
   void small(const T& v) {
     word(static_cast<std::uint64_t>(v));
+  }
+  /// Eight to a word.
+  void bytes(const std::vector<std::uint8_t>& v) {
+    for (std::size_t at = 0; at < v.size(); at += 8) {
+      std::uint64_t packed = 0;
+      for (std::size_t i = at; i < std::min(at + 8, v.size()); ++i)
+        packed |= std::uint64_t{v[i]} << 8u * (i - at);
+      word(packed);
+    }
   }
   void slots(const Slots& v) {
     std::memcpy(next_, v.data(), v.size());
@@ -61,6 +72,13 @@ class Take {
   void small(T& v) {
     v = static_cast<T>(word());
   }
+  void bytes(std::vector<std::uint8_t>& v) {
+    for (std::size_t at = 0; at < v.size(); at += 8) {
+      const std::uint64_t packed = word();
+      for (std::size_t i = at; i < std::min(at + 8, v.size()); ++i)
+        v[i] = static_cast<std::uint8_t>(packed >> 8u * (i - at) & 0xffu);
+    }
+  }
   void slots(Slots& v) {
     std::memcpy(v.data(), next_, v.size());
     next_ += v.size() / sizeof(std::uint64_t);
@@ -81,6 +99,7 @@ class Count {
   void small(const T&) {
     ++words;
   }
+  void bytes(const std::vector<std::uint8_t>& v) { words += (v.size() + 7) / 8; }
   void slots(const Slots& v) { words += v.size() / sizeof(std::uint64_t); }
   std::size_t words = 0;
 };
@@ -90,6 +109,12 @@ void walk_tried(Walk& walk, Tried& tried) {
   walk.small(tried.universe);
   walk.small(tried.slot);
   walk.small(tried.level);
+}
+
+template <class Walk, class Latch>
+void walk_latch(Walk& walk, Latch& latch) {
+  walk(latch.on);
+  walk(latch.id);
 }
 
 template <class Walk, class Wanted>
@@ -104,6 +129,10 @@ void walk_wanted(Walk& walk, Wanted& wanted) {
   for (auto& master : wanted.masters) walk(master);
   walk(wanted.blackout);
   walk(wanted.blackout_id);
+  walk.bytes(wanted.marks);
+  walk(wanted.blind);
+  walk_latch(walk, wanted.motion_stop);
+  walk_latch(walk, wanted.motion_armed);
   for (auto& tried : wanted.tried) walk_tried(walk, tried);
   walk(wanted.tried_until_ns);
 }
@@ -141,6 +170,21 @@ void walk_sent(Walk& walk, Sent& sent) {
   walk(sent.blackout);
   walk(sent.blackout_id);
   walk(sent.refused);
+  walk.bytes(sent.marks);
+  walk.bytes(sent.own_marks);
+  walk.bytes(sent.limited);
+  walk(sent.blind);
+  walk_latch(walk, sent.motion_stop);
+  walk_latch(walk, sent.motion_armed);
+  walk.small(sent.axes_waiting);
+  for (auto& circuit : sent.circuits) {
+    walk(circuit.draw_w);
+    walk(circuit.scale);
+  }
+  walk.small(sent.cue.playing);
+  walk(sent.cue.number);
+  walk.small(sent.cue.cues);
+  walk(sent.cue.follow_s);
   for (auto& port : sent.ports) walk_port(walk, port);
   walk(sent.real_time);
   walk(sent.dry_run);
@@ -151,6 +195,7 @@ void walk_sent(Walk& walk, Sent& sent) {
 rig::Wanted sized_wanted(const studio::Studio& studio) {
   rig::Wanted wanted;
   for (auto& source : wanted.sources) source.fixtures.resize(studio.fixtures.size());
+  wanted.marks.resize(studio.fixtures.size());
   return wanted;
 }
 
@@ -159,6 +204,10 @@ rig::Sent sized_sent(const studio::Studio& studio) {
   sent.fixtures.resize(studio.fixtures.size());
   sent.held.resize(studio.fixtures.size());
   for (auto& source : sent.sources) source.fixtures.resize(studio.fixtures.size());
+  sent.marks.resize(studio.fixtures.size());
+  sent.own_marks.resize(studio.fixtures.size());
+  sent.limited.resize(studio.fixtures.size());
+  sent.circuits.resize(studio.circuits.size());
   sent.ports.resize(studio.outputs.size());
   return sent;
 }
@@ -180,6 +229,7 @@ BoxFormat sent_format(const studio::Studio& studio) {
 void to_words(const rig::Wanted& wanted, std::size_t fixtures, std::span<std::uint64_t> words) {
   rig::Wanted padded = wanted;
   for (auto& source : padded.sources) source.fixtures.resize(fixtures);
+  padded.marks.resize(fixtures);
   Put put(words);
   walk_wanted(put, padded);
 }

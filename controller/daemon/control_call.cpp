@@ -111,6 +111,11 @@ core::Result<core::Done> hand_reload(const std::filesystem::path& runtime_folder
   return done(call(runtime_folder, "reload", patience));
 }
 
+core::Result<std::string> hand_request(const std::filesystem::path& runtime_folder,
+                                       const std::string& line, ports::Duration patience) {
+  return call(runtime_folder, line, patience);
+}
+
 core::Result<std::string> hand_status(const std::filesystem::path& runtime_folder,
                                       ports::Duration patience) {
   return call(runtime_folder, "status", patience);

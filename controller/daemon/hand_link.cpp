@@ -103,6 +103,12 @@ std::optional<rig::Wanted> HandLink::adopted() {
   wanted.masters = sent->masters;
   wanted.blackout = sent->blackout;
   wanted.blackout_id = sent->blackout_id;
+  wanted.marks = sent->marks;
+  for (std::size_t i = 0; i < wanted.marks.size(); ++i)
+    wanted.marks[i] = static_cast<rig::Marks>(wanted.marks[i] & ~sent->own_marks[i]);
+  wanted.blind = sent->blind;
+  wanted.motion_stop = sent->motion_stop;
+  wanted.motion_armed = sent->motion_armed;
   return wanted;
 }
 

@@ -48,7 +48,7 @@ class HandLink {
   const std::string& silence() const;
 
   /// What a starting brain posts first, so that nothing changes: the hand's sources, masters, fade
-  /// ids and blackout as it reports them. Nothing when the hand is not there.
+  /// ids, marks and latches as it reports them. Nothing when the hand is not there.
   std::optional<rig::Wanted> adopted();
 
  private:
@@ -65,6 +65,10 @@ core::Result<core::Done> hand_blackout(const std::filesystem::path& runtime_fold
 /// Asks the hand to read its studio file again; every problem of the file comes back.
 core::Result<core::Done> hand_reload(const std::filesystem::path& runtime_folder,
                                      ports::Duration patience = std::chrono::seconds(10));
+/// Anything that may be said to the hand (output/answers.h): its answer, one JSON object.
+core::Result<std::string> hand_request(const std::filesystem::path& runtime_folder,
+                                       const std::string& line,
+                                       ports::Duration patience = std::chrono::seconds(4));
 /// The hand's state as one JSON object (what `status` prints).
 core::Result<std::string> hand_status(const std::filesystem::path& runtime_folder,
                                       ports::Duration patience = std::chrono::seconds(2));

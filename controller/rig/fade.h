@@ -25,6 +25,12 @@ class Fade {
   void start(double from, double to, ports::TimePoint now, double seconds);
   double at(ports::TimePoint now) const;
   double target() const { return to_; }
+  double seconds() const { return seconds_; }
+  bool done(ports::TimePoint now) const {
+    return seconds_ <= 0 || std::chrono::duration<double>(now - start_).count() >= seconds_;
+  }
+  /// Is at its target at once.
+  void end() { seconds_ = 0; }
   /// Moves both ends into a range; a fade that runs goes on.
   void confine(double least, double most);
 

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The last word on every level before it is encoded. Merges what the sources want, runs the fades,
-// and applies masters, limits, caution and blackout, in this order:
+// and applies marks, masters, limits, caution and blackout, in this order:
 //
-//   merge > fade > flash guard > masters > caution (fade to safe) > limits (most, slew) > blackout
+//   merge > fade > flash guard > move in black, motion > solo, flash > masters > highlight
+//     > caution (fade to safe) > power of the circuit > limits (most, slew) > park > blackout
+//
+// So nothing a person marks walks round a limit, a parked lamp obeys no master but goes dark in a
+// blackout, and whatever ends a mark shows the level below, which has gone on meanwhile.
 //
 // Fades of light run evenly in lightness (CIE L*), not in linear light: half-way through a fade to
 // black a lamp looks half as bright, which is what an operator expects of "3 s"; evenly in linear
@@ -14,14 +18,15 @@
 #pragma once
 
 #include <array>
-#include <chrono>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "controller/core/dof.h"
 #include "controller/ports/clock.h"
+#include "controller/rig/caution.h"
 #include "controller/rig/wanted.h"
 #include "controller/studio/studio.h"
 
@@ -33,11 +38,14 @@ class AllowedLevels {
  public:
   /// By fixture index. Uncontrolled fixtures have no value at all.
   std::span<const core::FixtureState> fixtures() const { return fixtures_; }
+  /// The fixtures whose values may differ from those of the step before, ascending.
+  std::span<const std::uint32_t> changed() const { return changed_; }
 
  private:
   friend class Governor;
-  explicit AllowedLevels(std::size_t fixtures) : fixtures_(fixtures) {}
+  explicit AllowedLevels(std::size_t fixtures) : fixtures_(fixtures) { changed_.reserve(fixtures); }
   std::vector<core::FixtureState> fixtures_;
+  std::vector<std::uint32_t> changed_;
 };
 
 /// What survives a power cut: levels before masters and blackout, so that both can be released.
@@ -45,10 +53,15 @@ struct Held {
   std::vector<core::FixtureState> fixtures;  ///< by fixture index; empty states: not known
   std::array<double, kMasters> masters{1, 1, 1, 1, 1};
   bool blackout = false;
+  bool motion_stop = false;
+  std::vector<Marks> marks, own_marks;            ///< by fixture index: all, and the hand's own
+  std::array<std::uint64_t, kSources> fade_id{};  ///< taken before: the same ids start no fade
+  std::optional<double> cue;  ///< that was on stage: the look of before the cut stays below it
+  friend bool operator==(const Held&, const Held&) = default;
 };
 
-/// A brain is silent when its newest word is older than this.
-inline constexpr ports::Duration kSilence = std::chrono::seconds(1);
+/// How long a flash lasts that was asked for at the hand and not asked for again.
+inline constexpr ports::Duration kFlashLease = std::chrono::seconds(2);
 
 /// Everything but construction is real-time: no allocation, lock, log or throw. One thread.
 class Governor {
@@ -61,7 +74,8 @@ class Governor {
   Governor& operator=(Governor&&) noexcept;
 
   /// The brain's newest word. Values outside a DOF's range are clamped, values that are not
-  /// numbers count as absent. A word for another studio is refused but for its blackout wish.
+  /// numbers count as absent. A word for another studio is refused but for its blackout and motion
+  /// stop wishes.
   void take(const Wanted& wanted, ports::TimePoint now);
   /// The brain's box cannot be read (another fingerprint, layout or size): hold until a word is
   /// taken again.
@@ -69,6 +83,17 @@ class Governor {
   /// The hand's own blackout (socket, key): latched until released by anyone.
   void set_blackout(bool on);
   bool blackout() const;
+  /// The hand's own motion stop and arming; latched like the blackout.
+  void stop_motion(bool on);
+  void arm_motion(bool on);
+  /// Marks a lamp at the hand itself, or takes that mark away (the brain's own marks stay).
+  void mark(std::size_t fixture, Mark mark, bool on, ports::TimePoint now);
+  /// Puts a cue on stage over its own fade time, or, with no fixtures, takes it off. A new look
+  /// takes it off too. `ahead`: the same for lamps that move in black (cue_stack.h).
+  void play(const SourceState& cue, const SourceState& ahead, ports::TimePoint now);
+  bool cue_plays() const;
+  /// After a power cut: that cue is what the held levels came from. Starts no fade.
+  void stand_on(const SourceState& cue);
 
   /// The levels for a frame that leaves at `now`. Precondition: now does not go back.
   const AllowedLevels& step(ports::TimePoint now);

@@ -14,10 +14,44 @@
 
 namespace chiaro::rig {
 
-/// Later entries win where they have a value: blackout (apart) > manual > look > automatic >
+/// Later entries win where they have a value: blackout (apart) > manual > cue > look > automatic >
 /// default (the levels of the last power-down where they were kept, else the studio file's).
-enum class Source : std::uint8_t { automatic, look, manual };
-inline constexpr std::size_t kSources = 3;
+/// `cue` is the hand's own (cue_stack.h): the newest of cue and look is on stage, because a new
+/// look ends the cue. The brain leaves it empty.
+enum class Source : std::uint8_t { automatic, look, cue, manual };
+inline constexpr std::size_t kSources = 4;
+
+/// What a person may mark a lamp with, for as long as the mark stands. Bits of a `Marks`.
+enum class Mark : std::uint8_t {
+  highlight = 1,  ///< full and open white, above the masters: to find and to focus it
+  flash = 2,      ///< full in its own colour, under the masters; falls when its brain falls silent
+  solo = 4,       ///< while any lamp has it, those without are dark (house lights stay)
+  park = 8,  ///< stays exactly as it was sent when it was parked, whatever is asked or mastered
+  /// Goes to its next colour, zoom and place in the dark: on the way out after it is dark, on the
+  /// way in before it is lit.
+  move_in_black = 16
+};
+using Marks = std::uint8_t;
+constexpr bool has(Marks marks, Mark mark) { return (marks & static_cast<Marks>(mark)) != 0; }
+std::string_view name_of(Mark mark);
+
+/// A switch that several may throw: a new id carries a new wish, the hand's own state may differ.
+struct Latch {
+  bool on = false;
+  std::uint64_t id = 0;
+};
+
+/// Why a lamp is not sent what is wanted of it. Bits of a `Limited`.
+enum class Limit : std::uint8_t {
+  most = 1,     ///< its own limit, in the studio file
+  slew = 2,     ///< on its way
+  flash = 4,    ///< a program wanted it to flash more than three times a second
+  power = 8,    ///< its circuit's budget
+  motion = 16,  ///< an axis would move, but motion is stopped or not armed
+  person = 32   ///< an axis would come too near a person
+};
+using Limited = std::uint8_t;
+std::string_view name_of(Limit limit);
 
 /// Ordered: later wins.
 enum class Caution : std::uint8_t { normal, hold, fade_to_safe, blackout };
@@ -52,6 +86,12 @@ struct Wanted {
   std::array<double, kMasters> masters{1, 1, 1, 1, 1};
   bool blackout = false;          ///< as the brain's API wants it; latched by blackout_id
   std::uint64_t blackout_id = 0;  ///< a new id carries a new wish; the hand's own latch may differ
+  std::vector<Marks> marks;       ///< by fixture; added to what was marked at the hand itself
+  bool blind = false;  ///< sources are prepared, not sent; on release they fade in by their ids
+  /// Freezes every axis with the light held; stopping also disarms, so that releasing the stop
+  /// moves nothing yet.
+  Latch motion_stop;
+  Latch motion_armed;  ///< a person allows axes to move; off at every start, and refused in a stop
   std::array<TriedSlot, kTriedSlots> tried{};
   std::int64_t tried_until_ns = 0;  ///< monotonic clock: then they fall back to 0 by themselves
 };
@@ -71,6 +111,23 @@ struct Sent {
   bool blackout = false;
   std::uint64_t blackout_id = 0;  ///< the newest wish the hand has taken
   bool refused = false;           ///< fingerprints differ: holding
+  std::vector<Marks> marks;       ///< by fixture, whoever set them
+  std::vector<Marks> own_marks;   ///< those set at the hand itself
+  std::vector<Limited> limited;   ///< by fixture
+  bool blind = false;
+  Latch motion_stop, motion_armed;  ///< as they are; id: the newest wish of the brain's taken
+  std::uint32_t axes_waiting = 0;   ///< axes that would move if they were allowed to
+  struct Circuit {
+    double draw_w = 0;  ///< at what is sent
+    double scale = 1;   ///< below 1: its lamps are held down in proportion to keep the limit
+  };
+  std::vector<Circuit> circuits;  ///< by circuit of the studio
+  struct CueState {
+    std::int32_t playing = -1;  ///< index into the list; -1 = none
+    double number = 0;          ///< of the one that plays
+    std::uint32_t cues = 0;
+    double follow_s = -1;  ///< until the next goes by itself; -1 = it waits for a go
+  } cue;
   struct Port {
     std::uint16_t universe = 0;
     std::uint8_t health = 0;  ///< ports::PortHealth

@@ -27,6 +27,8 @@ Studio read_sections(const Tree& tree, Context& context, profiles::Shelf& shelf)
   sections::read_outputs(top, context, studio);
   sections::read_buses(top, context, studio);
   sections::read_fixtures(top, context, shelf, studio);
+  sections::read_circuits(top, context, studio);
+  sections::read_keep_out(top, context, studio);
   top.refuse_unknown();
   return studio;
 }

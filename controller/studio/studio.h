@@ -149,6 +149,7 @@ struct Limits {
   double slew_per_s = 0;          ///< fraction of full per second; 0 = unlimited
   double safe_level = 0;          ///< what `fade_to_safe` goes to
   bool ignores_blackout = false;  ///< house and safety light
+  double end_to_end_s = 10;       ///< the least time in which an axis may cross its whole range
 };
 
 struct Fixture {
@@ -200,6 +201,28 @@ struct Bus {
   core::Place place;
 };
 
+/// Lamps behind one fuse, and what it bears.
+struct Circuit {
+  std::string name;
+  double limit_w = 0;
+  struct Load {
+    std::size_t fixture = 0;  ///< index into Studio::fixtures
+    double watts = 0;         ///< at full
+  };
+  std::vector<Load> loads;
+  /// Dimmed filament lamps: half the light still takes 72 % of the power. LED lamps: half.
+  bool tungsten = false;
+  core::Place place;
+};
+
+/// Where people are or pass: no axis may carry a lamp into it. Subjects have theirs without asking.
+struct KeepOut {
+  std::string name;
+  core::Vec3 at;
+  double radius = 1;  ///< metres
+  core::Place place;
+};
+
 /// What happens when the brain falls silent and at power-up.
 struct Safety {
   std::optional<double> fade_to_safe_after_s;  ///< none = hold for ever
@@ -219,6 +242,8 @@ struct Studio {
   std::vector<Fixture> fixtures;
   std::vector<Output> outputs;
   std::vector<Bus> buses;
+  std::vector<Circuit> circuits;
+  std::vector<KeepOut> keep_out;
   Exposure exposure;
   std::optional<Ambient> ambient;
   Safety safety;

@@ -84,6 +84,8 @@ std::string limits_in_words(const Limits& limits) {
   if (limits.slew_per_s > 0)
     add("dark to full in " + reading::digits(1 / limits.slew_per_s) + " s");
   if (limits.safe_level > 0) add("safe at " + per_cent(limits.safe_level));
+  if (limits.end_to_end_s != Limits{}.end_to_end_s)
+    add("axes end to end in " + reading::digits(limits.end_to_end_s) + " s");
   if (limits.ignores_blackout) add("house light: stays on in blackout");
   return words.empty() ? "none" : words;
 }

@@ -47,7 +47,7 @@ fixtures:
     modifiers: [{softbox: [0.6, 0.9], loss: 1.3 stops}, bare]
     mount: {stand: {at: {azimuth: -45 deg, elevation: 35 deg, distance: 1.8 m}, azimuth: [-80 deg, 80 deg], elevation: [-45 deg, 70 deg], distance: [1.2 m, 2.4 m]}}
     patch: {universe: 1, address: 1}
-    limits: {most: 80 %, dark_to_full: 2 s, safe_level: 0.1, house_light: yes}
+    limits: {most: 80 %, dark_to_full: 2 s, safe_level: 0.1, house_light: yes, end_to_end: 20 s}
     curve: {gamma: 2.2}
     initial: {intensity: 30 %, cct: 4300 K}
   fill:
@@ -110,6 +110,10 @@ buses:
 exposure: {grey_card: 50 fc, white_balance: 5600 K}
 ambient: {illuminance: 20 lx, cct: 4000 K}
 safety: {when_silent: {fade_to_safe: {after: 60 s, over: 4 s}}, power_up: dark}
+circuits:
+  left wall: {limit: 2.3 kW, lamps: {hair: 650 W, head: 300 W}, tungsten: no}
+keep_out:
+  desk: {at: [1, -2, 1], radius: 0.8 m}
 )";
   return kText;
 }

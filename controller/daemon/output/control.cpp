@@ -6,7 +6,6 @@
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
-#include <nlohmann/json.hpp>
 #include <poll.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -18,9 +17,7 @@
 namespace chiaro::daemon {
 namespace {
 
-using Json = nlohmann::json;
-
-constexpr std::size_t kMostClients = 16, kLongestLine = 256;
+constexpr std::size_t kMostClients = 16, kLongestLine = 512;
 
 core::Problem trouble(const std::filesystem::path& socket, const std::string& doing) {
   return {{socket.string()},
@@ -29,38 +26,10 @@ core::Problem trouble(const std::filesystem::path& socket, const std::string& do
           false};
 }
 
-std::string refusal(const core::Problems& problems) {
-  Json list = Json::array();
-  for (const auto& p : problems)
-    list.push_back({{"file", p.where.file},
-                    {"line", p.where.line},
-                    {"column", p.where.column},
-                    {"what", p.what},
-                    {"remedy", p.remedy}});
-  return Json{{"problems", list}}.dump();
-}
-
-std::string refusal(const std::string& what, const std::string& remedy) {
-  return refusal(core::Problems{{{}, what, remedy, false}});
-}
-
-std::string_view name_of(ports::PortHealth health) {
-  switch (health) {
-    case ports::PortHealth::closed:
-      return "closed";
-    case ports::PortHealth::good:
-      return "good";
-    case ports::PortHealth::lost:
-      return "lost";
-  }
-  return "?";
-}
-
 }  // namespace
 
 core::Result<std::unique_ptr<Control>> Control::open(const std::filesystem::path& socket,
-                                                     Hand& hand, Housekeeper& housekeeper,
-                                                     std::atomic<bool>& release, bool real_time) {
+                                                     const Answers& answers, bool real_time) {
   const std::string path = socket.string();
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
@@ -78,17 +47,11 @@ core::Result<std::unique_ptr<Control>> Control::open(const std::filesystem::path
     ::close(listener);
     return problem;
   }
-  return std::unique_ptr<Control>(
-      new Control(listener, socket, hand, housekeeper, release, real_time));
+  return std::unique_ptr<Control>(new Control(listener, socket, answers, real_time));
 }
 
-Control::Control(int listener, std::filesystem::path socket, Hand& hand, Housekeeper& housekeeper,
-                 std::atomic<bool>& release, bool real_time)
-    : listener_(listener),
-      socket_(std::move(socket)),
-      hand_(hand),
-      housekeeper_(housekeeper),
-      release_(release) {
+Control::Control(int listener, std::filesystem::path socket, const Answers& answers, bool real_time)
+    : listener_(listener), socket_(std::move(socket)), answers_(answers) {
   if (::pipe2(wake_, O_CLOEXEC) != 0) wake_[0] = wake_[1] = -1;
   thread_ = std::thread([this, real_time] {
     if (real_time) take_turn_below_loop();
@@ -98,6 +61,7 @@ Control::Control(int listener, std::filesystem::path socket, Hand& hand, Houseke
 
 Control::~Control() {
   ending_ = true;
+  answers_.end();
   const char byte = 0;
   if (::write(wake_[1], &byte, 1) < 0) {
     // Then the poll's own time-out ends the wait.
@@ -142,61 +106,11 @@ bool Control::read_from(Client& client) {
   if (got == 0) return false;
   client.text.append(bytes.data(), static_cast<std::size_t>(got));
   for (auto end = client.text.find('\n'); end != std::string::npos; end = client.text.find('\n')) {
-    const std::string reply = answer(client.text.substr(0, end)) + "\n";
+    const std::string reply = answers_.to(client.text.substr(0, end)) + "\n";
     client.text.erase(0, end + 1);
     if (::send(client.descriptor, reply.data(), reply.size(), MSG_NOSIGNAL) < 0) return false;
   }
   return client.text.size() <= kLongestLine;
-}
-
-std::string Control::answer(const std::string& line) {
-  if (line == "blackout on") return blackout(true);
-  if (line == "blackout off") return blackout(false);
-  if (line == "status") return status();
-  if (line == "reload") {
-    const auto outcome = housekeeper_.reload_now(std::chrono::seconds(8));
-    return outcome ? Json{{"reload", true}}.dump() : refusal(outcome.problems());
-  }
-  if (line == "release") {
-    release_ = true;
-    return Json{{"release", true}}.dump();
-  }
-  return refusal("unknown request '" + line.substr(0, 40) + "'",
-                 "known: blackout on, blackout off, status, reload, release");
-}
-
-std::string Control::blackout(bool on) {
-  const std::uint64_t wish = hand_.wish_blackout(on);
-  // The loop takes it at its next frame, 25 ms away at most; it never waits for us, so we look.
-  for (int i = 0; i < 1000 && !ending_; ++i) {
-    if (hand_.taken(wish)) return Json{{"blackout", on}}.dump();
-    ::poll(nullptr, 0, 1);
-  }
-  return refusal("the output loop did not take the blackout within a second",
-                 "switch the lamps' mains off if they must go dark now");
-}
-
-std::string Control::status() const {
-  const rig::Sent sent = housekeeper_.newest_report();
-  Json json{{"caution", rig::name_of(sent.caution)},
-            {"blackout", sent.blackout},
-            {"refused", sent.refused},
-            {"real_time", sent.real_time},
-            {"dry_run", sent.dry_run},
-            {"ports", Json::array()}};
-  for (const auto& port : sent.ports)
-    json["ports"].push_back({{"universe", port.universe},
-                             {"health", name_of(static_cast<ports::PortHealth>(port.health))},
-                             {"rate_hz", port.rate_hz},
-                             {"frames", port.frames},
-                             {"failed", port.failed},
-                             {"late", port.late},
-                             {"missed", port.missed},
-                             {"jitter_us",
-                              {{"p50", port.jitter_us_p50},
-                               {"p99", port.jitter_us_p99},
-                               {"p99.9", port.jitter_us_p999}}}});
-  return json.dump();
 }
 
 }  // namespace chiaro::daemon

@@ -29,8 +29,17 @@ std::string told_as(rig::Caution caution, bool refused) {
   return "";
 }
 
-bool same(const rig::Held& a, const rig::Held& b) {
-  return a.blackout == b.blackout && a.masters == b.masters && a.fixtures == b.fixtures;
+rig::Held held_in(const rig::Sent& report) {
+  rig::Held held;
+  held.fixtures = report.held;
+  held.masters = report.masters;
+  held.blackout = report.blackout;
+  held.motion_stop = report.motion_stop.on;
+  held.marks = report.marks;
+  held.own_marks = report.own_marks;
+  held.fade_id = report.fade_id;
+  if (report.cue.playing >= 0) held.cue = report.cue.number;
+  return held;
 }
 
 }  // namespace
@@ -42,7 +51,8 @@ Housekeeper::Housekeeper(Hand& hand, const std::filesystem::path& studio_file,
       studio_file_(studio_file),
       options_(options),
       world_(world),
-      report_(sized_sent(hand.show().studio())) {}
+      report_(sized_sent(hand.show().studio())),
+      studio_(hand.show().studio()) {}
 
 void Housekeeper::tick() {
   look_for_brain();
@@ -88,6 +98,11 @@ void Housekeeper::read_report() {
   from_words(report_words_, fresh);
   const std::scoped_lock lock(report_mutex_);
   report_ = std::move(fresh);
+}
+
+studio::Studio Housekeeper::studio_now() const {
+  const std::scoped_lock lock(report_mutex_);
+  return studio_;
 }
 
 rig::Sent Housekeeper::newest_report() const {
@@ -167,8 +182,8 @@ void Housekeeper::save_if_due() {
 
 void Housekeeper::save_now() {
   if (report_.sent_ns == 0) return;
-  const rig::Held held{report_.held, report_.masters, report_.blackout};
-  if (saved_ && same(*saved_, held)) return;
+  const rig::Held held = held_in(report_);
+  if (saved_ && *saved_ == held) return;
   saved_ = held;
   saved_at_ = world_.clock.now();
   const auto written =
@@ -217,6 +232,10 @@ bool Housekeeper::swap_in(std::unique_ptr<Show> next) {
   }
   old->release(world_.clock.now());  // the ports that the new studio has no use for
   show_ = fresh;
+  {
+    const std::scoped_lock lock(report_mutex_);
+    studio_ = fresh->studio();
+  }
   lost_.clear();
   brain_box_ = 0;
   report_reader_.reset();

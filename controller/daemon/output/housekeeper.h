@@ -39,6 +39,8 @@ class Housekeeper {
   core::Result<core::Done> reload_now(ports::Duration patience);
   /// The newest report, copied. Thread-safe.
   rig::Sent newest_report() const;
+  /// The studio that is being sent, copied. Thread-safe.
+  studio::Studio studio_now() const;
 
  private:
   void look_for_brain();
@@ -65,6 +67,7 @@ class Housekeeper {
   std::vector<std::uint64_t> report_words_;
   mutable std::mutex report_mutex_;
   rig::Sent report_;
+  studio::Studio studio_;  ///< under the report's mutex
 
   struct Lost {
     ports::TimePoint next;

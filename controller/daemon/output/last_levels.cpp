@@ -5,71 +5,113 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "controller/daemon/output/whole_file.h"
+#include "controller/core/hash.h"
+#include "controller/daemon/output/state_json.h"
 
 namespace chiaro::daemon {
 namespace {
 
 using Json = nlohmann::json;
 
-Json json_of(const core::FixtureState& state) {
-  Json values = Json::object();
-  for (const auto& dof : core::dofs())
-    if (state.has(dof.dof)) values[std::string(dof.name)] = state.get(dof.dof);
-  return values;
+/// Of everything but itself. JSON keeps its keys sorted, so the same values give the same text.
+std::string checksum_of(Json json) {
+  json.erase("checksum");
+  return core::hex(core::Fingerprint().add(json.dump()).value());
 }
 
-core::FixtureState state_of(const Json& values) {
-  core::FixtureState state;
-  if (!values.is_object()) return state;
-  for (const auto& [name, value] : values.items())
-    if (const auto dof = core::dof_named(name); dof && value.is_number())
-      state.set(*dof, value.get<double>());
-  return state;
+bool is_whole(const Json& json) {
+  if (json.is_discarded() || !json.is_object() || !json.contains("fixtures") ||
+      !json["fixtures"].is_object())
+    return false;
+  // A file that somebody wrote by hand has none.
+  return !json.contains("checksum") || json["checksum"] == Json(checksum_of(json));
+}
+
+Json marks_of(const studio::Studio& studio, const std::vector<rig::Marks>& marks) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < studio.fixtures.size() && i < marks.size(); ++i)
+    if (marks[i] != 0) json[studio.fixtures[i].name] = marks[i];
+  return json;
+}
+
+std::vector<rig::Marks> marks_in(const studio::Studio& studio, const Json& json) {
+  std::vector<rig::Marks> marks;
+  for (const auto& fixture : studio.fixtures) {
+    const Json mark = json.is_object() ? json.value(fixture.name, Json()) : Json();
+    marks.push_back(mark.is_number_unsigned() ? static_cast<rig::Marks>(mark.get<unsigned>() & 255u)
+                                              : rig::Marks{0});
+  }
+  return marks;
+}
+
+bool flag(const Json& json, const char* name) {
+  const Json value = json.value(name, Json());
+  return value.is_boolean() && value.get<bool>();
+}
+
+rig::Held held_in(const Json& json, const studio::Studio& studio) {
+  rig::Held held;
+  held.blackout = flag(json, "blackout");
+  held.motion_stop = flag(json, "motion_stop");
+  if (const Json cue = json.value("cue", Json()); cue.is_number()) held.cue = cue.get<double>();
+  const Json masters = json.value("masters", Json::array());
+  for (std::size_t i = 0; i < held.masters.size() && i < masters.size(); ++i)
+    if (masters[i].is_number()) held.masters[i] = masters[i].get<double>();
+  const Json ids = json.value("fade_ids", Json::array());
+  for (std::size_t i = 0; i < held.fade_id.size() && i < ids.size(); ++i)
+    if (ids[i].is_number_unsigned()) held.fade_id[i] = ids[i].get<std::uint64_t>();
+  held.marks = marks_in(studio, json.value("marks", Json()));
+  held.own_marks = marks_in(studio, json.value("own_marks", Json()));
+  held.fixtures = states_of(studio, json["fixtures"]);
+  return held;
 }
 
 }  // namespace
 
 core::Result<core::Done> write_last_levels(const std::filesystem::path& file,
-                                           const studio::Studio& studio, const rig::Held& held) {
+                                           const studio::Studio& studio, const rig::Held& held,
+                                           FileCalls& calls) {
   Json json;
   json["about"] = "levels that chiaro-output sends when it starts; inside units (radians, kelvin)";
   json["studio"] = studio.name;
   json["blackout"] = held.blackout;
+  json["motion_stop"] = held.motion_stop;
   json["masters"] = held.masters;
-  for (std::size_t i = 0; i < studio.fixtures.size() && i < held.fixtures.size(); ++i)
-    json["fixtures"][studio.fixtures[i].name] = json_of(held.fixtures[i]);
-  return write_whole(file, json.dump(1) + "\n");
+  json["fade_ids"] = held.fade_id;
+  if (held.cue) json["cue"] = *held.cue;
+  json["marks"] = marks_of(studio, held.marks);
+  json["own_marks"] = marks_of(studio, held.own_marks);
+  json["fixtures"] = json_of(studio, held.fixtures);
+  json["checksum"] = checksum_of(json);
+  return write_whole(file, json.dump(1) + "\n", kLevelGenerations, calls);
+}
+
+core::Result<core::Done> write_last_levels(const std::filesystem::path& file,
+                                           const studio::Studio& studio, const rig::Held& held) {
+  FileCalls calls;
+  return write_last_levels(file, studio, held, calls);
 }
 
 std::optional<rig::Held> read_last_levels(const std::filesystem::path& file,
                                           const studio::Studio& studio, core::Problems& warnings) {
-  std::ifstream in(file);
-  if (!in) return std::nullopt;
-  std::stringstream text;
-  text << in.rdbuf();
-  const Json json = Json::parse(text.str(), nullptr, false);
-  if (json.is_discarded() || !json.is_object() || !json.contains("fixtures") ||
-      !json["fixtures"].is_object()) {
-    warnings.push_back({{file.string()},
+  for (int g = 0; g < kLevelGenerations; ++g) {
+    const std::filesystem::path each = generation_of(file, g);
+    std::ifstream in(each);
+    if (!in) continue;
+    std::stringstream text;
+    text << in.rdbuf();
+    const Json json = Json::parse(text.str(), nullptr, false);
+    if (is_whole(json)) {
+      if (json.value("studio", Json()) != Json(studio.name)) return std::nullopt;
+      return held_in(json, studio);
+    }
+    warnings.push_back({{each.string()},
                         "the levels kept from last time cannot be read",
-                        "starting as the studio file says; the file will be written anew",
+                        "the one before is taken, or else the studio file's; it will be written "
+                        "anew",
                         true});
-    return std::nullopt;
   }
-  if (json.value("studio", Json()) != Json(studio.name)) return std::nullopt;
-  rig::Held held;
-  const Json blackout = json.value("blackout", Json());
-  held.blackout = blackout.is_boolean() && blackout.get<bool>();
-  const Json masters = json.value("masters", Json::array());
-  for (std::size_t i = 0; i < held.masters.size() && i < masters.size(); ++i)
-    if (masters[i].is_number()) held.masters[i] = masters[i].get<double>();
-  for (const auto& fixture : studio.fixtures) {
-    const auto found = json["fixtures"].find(fixture.name);
-    held.fixtures.push_back(found == json["fixtures"].end() ? core::FixtureState{}
-                                                            : state_of(*found));
-  }
-  return held;
+  return std::nullopt;
 }
 
 }  // namespace chiaro::daemon

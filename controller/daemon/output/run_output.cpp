@@ -77,7 +77,8 @@ Exit perform(std::unique_ptr<Show> first, const Arguments& arguments, const Show
   Hand hand(std::move(first));
   Housekeeper housekeeper(hand, arguments.studio, options, world);
   std::atomic<bool> release{false}, ended{false};
-  auto control = Control::open(world.runtime_folder / "output.sock", hand, housekeeper, release,
+  auto control = Control::open(world.runtime_folder / "output.sock",
+                               Answers(hand, housekeeper, release, world.state_folder),
                                !arguments.no_real_time);
   if (!control) return refuse(world, control.problems(), Exit::out_of_reach);
   announce(world, studio, options.dry_run);

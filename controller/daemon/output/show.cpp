@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "controller/daemon/box_words.h"
+#include "controller/daemon/output/cue_book.h"
 
 namespace chiaro::daemon {
 namespace {
@@ -97,6 +98,7 @@ core::Result<std::unique_ptr<Show>> Show::make(const studio::Studio& studio, con
         before == nullptr ? std::nullopt : before->studio_.fixture_index(fixture.name);
     show->fixtures_before_.push_back(index ? static_cast<std::ptrdiff_t>(*index) : -1);
   }
+  show->recall_cues(read_cues(world.state_folder, studio, warnings), held);
   for (const auto& output : studio.outputs)
     show->add_port(output, options, world, before, warnings);
   show->wanted_words_.resize(wanted_format(studio).words);
@@ -124,8 +126,47 @@ void Show::add_port(const studio::Output& output, const Options& options, ports:
                                             plan.rate_hz, world.clock, options.real_time));
 }
 
+void Show::recall_cues(std::unique_ptr<rig::CueList> list, const rig::Held* held) {
+  cues_.take(list);
+  if (held == nullptr || !held->cue) return;
+  if (const rig::Cue* cue = cues_.stand_at(*held->cue)) governor_.stand_on(cue->state);
+}
+
+void Show::play(const rig::Cue* cue, ports::TimePoint now) {
+  if (cue != nullptr) governor_.play(cue->state, cue->ahead, now);
+}
+
+void Show::obey(const Wish& wish, ports::TimePoint now) {
+  switch (wish.kind) {
+    case Wish::Kind::mark:
+      if (wish.studio == studio_.fingerprint) governor_.mark(wish.fixture, wish.mark, wish.on, now);
+      break;
+    case Wish::Kind::motion_stop:
+      governor_.stop_motion(wish.on);
+      break;
+    case Wish::Kind::motion_arm:
+      governor_.arm_motion(wish.on);
+      break;
+    case Wish::Kind::cue_go:
+      play(cues_.go(now), now);
+      break;
+    case Wish::Kind::cue_back:
+      play(cues_.back(now), now);
+      break;
+    case Wish::Kind::cue_to:
+      play(cues_.to(wish.number, now), now);
+      break;
+    case Wish::Kind::cue_off:
+      cues_.off();
+      governor_.play({}, {}, now);
+      break;
+  }
+  last_report_ = {};  // who wished may look
+}
+
 void Show::take_over(Show& before) {
   governor_.carry_on(before.governor_, fixtures_before_);
+  if (before.governor_.cue_plays()) cues_.stand_at(before.cues_.state(before.last_frame_).number);
   const ports::TimePoint next = before.next_deadline();
   for (std::size_t i = 0; i < ports_.size(); ++i) {
     if (ports_before_[i] >= 0) {
@@ -177,6 +218,8 @@ void Show::frame(ports::Clock& clock) {
   const ports::TimePoint now = clock.now();
   last_frame_ = now;
   hear(now);
+  if (!governor_.cue_plays()) cues_.off();  // a new look took its place
+  play(cues_.due(now), now);
   plan_.encode(governor_.step(now), frames_);
   if (!governor_.blackout()) tried_.raise(frames_, now);
   for (std::size_t i = 0; i < ports_.size(); ++i)
@@ -192,6 +235,7 @@ bool Show::report_is_due(ports::TimePoint now) const {
 void Show::report_now() {
   last_report_ = last_frame_;
   governor_.report(report_);
+  report_.cue = cues_.state(last_frame_);
   for (std::size_t i = 0; i < ports_.size(); ++i) {
     ports_[i]->report(report_.ports[i]);
     report_.ports[i].slots = frames_[frame_of_port_[i]].levels;

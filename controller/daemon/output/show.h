@@ -14,8 +14,10 @@
 #include "controller/daemon/box.h"
 #include "controller/daemon/output/port_slot.h"
 #include "controller/daemon/output/tried_slots.h"
+#include "controller/daemon/output/wish.h"
 #include "controller/patch/plan.h"
 #include "controller/ports/world.h"
+#include "controller/rig/cue_stack.h"
 #include "controller/rig/governor.h"
 #include "controller/studio/studio.h"
 
@@ -49,6 +51,9 @@ class Show {
   void frame(ports::Clock& clock);
   void report_now();
   void set_blackout(bool on) { governor_.set_blackout(on); }
+  void obey(const Wish& wish, ports::TimePoint now);
+  /// The old list comes back in `list`.
+  void take_cues(std::unique_ptr<rig::CueList>& list) { cues_.take(list); }
   /// When every port has sent, or tried to, at or after `since`.
   bool all_tried_since(ports::TimePoint since) const;
   void set_real_time(bool granted) { report_.real_time = granted; }
@@ -69,12 +74,15 @@ class Show {
        const rig::Held* held);
   void add_port(const studio::Output& output, const Options& options, ports::World& world,
                 const Show* before, core::Problems& warnings);
+  void recall_cues(std::unique_ptr<rig::CueList> list, const rig::Held* held);
+  void play(const rig::Cue* cue, ports::TimePoint now);
   void hear(ports::TimePoint now);
   bool report_is_due(ports::TimePoint now) const;
 
   const studio::Studio studio_;
   patch::Plan plan_;
   rig::Governor governor_;
+  rig::CueStack cues_;
   std::vector<ports::DmxFrame> frames_;
   TriedSlots tried_;
   std::vector<std::unique_ptr<PortSlot>> ports_;  ///< one per output of the studio

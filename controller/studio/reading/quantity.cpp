@@ -39,6 +39,8 @@ constexpr std::array kUnits{
     UnitName{"kcd", Measure::intensity, 1000},
     UnitName{"stops", Measure::stops, 1},
     UnitName{"stop", Measure::stops, 1},
+    UnitName{"W", Measure::power, 1},
+    UnitName{"kW", Measure::power, 1000},
 };
 
 /// Reads a number off the front; `rest` is what follows.
@@ -69,6 +71,8 @@ MeasureWords words(Measure measure) {
       return {"an illuminance", "800 lx"};
     case Measure::intensity:
       return {"a luminous intensity", "12000 cd"};
+    case Measure::power:
+      return {"a power", "2300 W"};
     case Measure::stops:
       return {"a number of stops", "1.3 stops"};
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Numbers with their unit in the value: `26 deg`, `40 Hz`, `1.3 stops`. Values come out in inside
-// units (metres, radians, seconds, hertz, kelvin, lux, candela, stops).
+// units (metres, radians, seconds, hertz, kelvin, lux, candela, stops, watts).
 #pragma once
 
 #include <optional>
@@ -18,6 +18,7 @@ enum class Measure {
   illuminance,
   intensity,
   stops,
+  power,
 };
 
 /// "a length", "an example": for messages.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// limits: {most: 80 %, dark_to_full: 2 s, safe_level: 10 %, house_light: yes}
+// limits: {most: 80 %, dark_to_full: 2 s, safe_level: 10 %, house_light: yes, end_to_end: 10 s}
 #include "controller/studio/reading/scalars.h"
 #include "controller/studio/sections/sections.h"
 
@@ -17,6 +17,8 @@ Limits read_limits(const Tree* tree, Context& context) {
   if (const auto s =
           quantity(section.find("dark_to_full"), Measure::duration, {0.001, 600}, report))
     limits.slew_per_s = 1 / *s;
+  into(limits.end_to_end_s,
+       quantity(section.find("end_to_end"), Measure::duration, {0.5, 600}, report));
   const Tree* safe = section.find("safe_level");
   into(limits.safe_level, fraction(safe, report));
   into(limits.ignores_blackout, yes_or_no(section.find("house_light"), report));

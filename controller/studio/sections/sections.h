@@ -27,6 +27,9 @@ void read_outputs(Section& top, Context& context, Studio& studio);
 void read_buses(Section& top, Context& context, Studio& studio);
 /// After exposure (colour that nobody sets starts at its white balance) and buses.
 void read_fixtures(Section& top, Context& context, profiles::Shelf& shelf, Studio& studio);
+/// After fixtures.
+void read_circuits(Section& top, Context& context, Studio& studio);
+void read_keep_out(Section& top, Context& context, Studio& studio);
 
 /// Parts of a fixture.
 Mount read_mount(const Tree* tree, const Studio& studio, Context& context);

@@ -104,8 +104,8 @@ TEST_F(Loop, CarriesEveryWordOfBothDirectionsThroughTheBoxes) {
   sent.sent_ns = -2;
   sent.fixtures[1].set(core::Dof::zoom, 0.25);
   sent.held[0].set(core::Dof::intensity, 0.125);
-  sent.sources[2].fixtures[1].set(core::Dof::red, 1);
-  sent.sources[2].fade_id = 77;
+  sent.sources[3].fixtures[1].set(core::Dof::red, 1);
+  sent.sources[3].fade_id = 77;
   sent.masters[4] = 0.5;
   sent.fade_progress[1] = 0.75;
   sent.caution = rig::Caution::fade_to_safe;
@@ -122,8 +122,8 @@ TEST_F(Loop, CarriesEveryWordOfBothDirectionsThroughTheBoxes) {
   EXPECT_EQ(back.sent_ns, -2);
   EXPECT_EQ(back.fixtures, sent.fixtures);
   EXPECT_EQ(back.held, sent.held);
-  EXPECT_EQ(back.sources[2].fixtures, sent.sources[2].fixtures);
-  EXPECT_EQ(back.sources[2].fade_id, 77u);
+  EXPECT_EQ(back.sources[3].fixtures, sent.sources[3].fixtures);
+  EXPECT_EQ(back.sources[3].fade_id, 77u);
   EXPECT_EQ(back.masters, sent.masters);
   EXPECT_EQ(back.fade_progress, sent.fade_progress);
   EXPECT_EQ(back.caution, sent.caution);

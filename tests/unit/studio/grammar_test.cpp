@@ -89,9 +89,38 @@ TEST_F(Grammar, AStandWithLimitsCurveAndAFittedSoftbox) {
   EXPECT_DOUBLE_EQ(key.limits.slew_per_s, 0.5);
   EXPECT_DOUBLE_EQ(key.limits.safe_level, 0.1);
   EXPECT_TRUE(key.limits.ignores_blackout);
+  EXPECT_DOUBLE_EQ(key.limits.end_to_end_s, 20);
   EXPECT_EQ(key.curve.law, DimmerCurve::Law::gamma);
   EXPECT_DOUBLE_EQ(key.initial.get(Dof::intensity), 0.3);
   EXPECT_DOUBLE_EQ(key.initial.get(Dof::cct), 4300);
+}
+
+TEST_F(Grammar, CircuitsAndPlacesToKeepOutOf) {
+  const Studio studio = full();
+  ASSERT_EQ(studio.circuits.size(), 1u);
+  const Circuit& wall = studio.circuits[0];
+  EXPECT_EQ(wall.name, "left wall");
+  EXPECT_DOUBLE_EQ(wall.limit_w, 2300);
+  EXPECT_FALSE(wall.tungsten);
+  ASSERT_EQ(wall.loads.size(), 2u);
+  EXPECT_EQ(wall.loads[1].fixture, *studio.fixture_index("head"));
+  EXPECT_DOUBLE_EQ(wall.loads[1].watts, 300);
+  ASSERT_EQ(studio.keep_out.size(), 1u);
+  EXPECT_EQ(studio.keep_out[0].at, (core::Vec3{1, -2, 1}));
+  EXPECT_DOUBLE_EQ(studio.keep_out[0].radius, 0.8);
+}
+
+TEST_F(Grammar, NamesWhatIsWrongInACircuit) {
+  const auto bad = parse(support::edited(support::full_studio_text(), "{hair: 650 W, head: 300 W}",
+                                         "{hair: 650 W, heat: 300 W}"));
+  ASSERT_FALSE(bad.ok());
+  EXPECT_NE(core::to_string(bad.problems()).find("there is no fixture 'heat'"), std::string::npos);
+  const auto twice = parse(
+      support::edited(support::full_studio_text(),
+                      "keep_out:", "  right wall: {limit: 16 W, lamps: {head: 5 W}}\nkeep_out:"));
+  ASSERT_FALSE(twice.ok());
+  EXPECT_NE(core::to_string(twice.problems()).find("on another circuit already"),
+            std::string::npos);
 }
 
 TEST_F(Grammar, EveryKindOfMount) {

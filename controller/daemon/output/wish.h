@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// What may be asked of the hand itself, brain or no brain.
+#pragma once
+
+#include <cstdint>
+
+#include "controller/rig/wanted.h"
+
+namespace chiaro::daemon {
+
+struct Wish {
+  enum class Kind : std::uint8_t {
+    mark,
+    motion_stop,
+    motion_arm,
+    cue_go,
+    cue_back,
+    cue_to,
+    cue_off
+  };
+  Kind kind = Kind::mark;
+  bool on = false;
+  rig::Mark mark = rig::Mark::highlight;
+  std::uint32_t fixture = 0;  ///< index in the studio with this fingerprint; of another: dropped
+  std::uint64_t studio = 0;
+  double number = 0;  ///< of a cue
+};
+
+}  // namespace chiaro::daemon
