@@ -41,7 +41,7 @@ double inside_value(Dof dof, double file_value);
 double file_value(Dof dof, double inside_value);
 /// Position, aim and zoom, as against light and colour.
 constexpr bool is_placement(Dof dof) { return dof >= Dof::azimuth; }
-constexpr bool is_colour(Dof dof) { return dof > Dof::intensity && dof < Dof::azimuth; }
+constexpr bool is_colour(Dof dof) { return dof > Dof::specular && dof < Dof::azimuth; }
 
 /// The value of each degree of freedom that a fixture has, inside units (radians, metres, kelvin,
 /// fractions of linear light).

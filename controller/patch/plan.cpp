@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "controller/patch/curve.h"
 
@@ -14,7 +15,9 @@ using core::Dof;
 using core::FixtureState;
 using studio::Segment;
 
-bool is_drive(Dof dof) { return core::is_colour(dof) && dof != Dof::cct && dof != Dof::tint; }
+bool is_drive(Dof dof) {
+  return core::is_colour(dof) && dof != Dof::cct && dof != Dof::tint && dof != Dof::crossfade;
+}
 
 bool set_by_hand(const studio::Fixture& fixture, Dof dof) {
   return std::any_of(fixture.by_hand.begin(), fixture.by_hand.end(),
@@ -35,44 +38,30 @@ std::uint32_t raw_of(double fraction, int bytes) {
       std::lround(std::clamp(fraction, 0.0, 1.0) * full_scale(bytes)));
 }
 
-/// The DMX fraction that means `value`, or the nearest that can be had.
-double fraction_of(const std::vector<Segment>& segments, double value) {
-  double best = 0, least = std::numeric_limits<double>::infinity();
-  for (const Segment& s : segments) {
-    if (s.law == Segment::Law::no_effect) continue;
-    if (s.law == Segment::Law::neutral) {
-      // The middle of a dead band, far from the meanings on either side.
-      if (const double gap = std::abs(value - s.physical_from); gap < least)
-        least = gap, best = 0.5 * (s.dmx_from + s.dmx_to);
-      continue;
-    }
-    const auto [low, high] = std::minmax(s.physical_from, s.physical_to);
-    const double near = std::clamp(value, low, high);
-    if (const double gap = std::abs(value - near); gap < least) {
-      const double width = s.physical_to - s.physical_from;
-      const double x = width == 0 ? 0 : (near - s.physical_from) / width;
-      least = gap, best = s.dmx_from + x * (s.dmx_to - s.dmx_from);
-    }
+/// Of the raw values about `wanted`, the one that a trim completes best; the least trim among
+/// equals. Both channels are rounded once.
+std::pair<std::uint32_t, std::uint32_t> coarse_and_trim(double wanted,
+                                                        const std::vector<Segment>& coarse,
+                                                        int coarse_bytes,
+                                                        const std::vector<Segment>& trim,
+                                                        int trim_bytes) {
+  const std::uint32_t most = full_scale(coarse_bytes);
+  const std::uint32_t near = raw_of(fraction_of(coarse, wanted), coarse_bytes);
+  std::pair<std::uint32_t, std::uint32_t> best{near, 0};
+  double least = std::numeric_limits<double>::infinity(), least_trim = least;
+  for (std::uint32_t raw = near > 0 ? near - 1 : 0; raw <= std::min(near + 1, most); ++raw) {
+    const auto base = meaning_of(coarse, static_cast<double>(raw) / most);
+    if (!base) continue;
+    const std::uint32_t fine = raw_of(fraction_of(trim, wanted - *base), trim_bytes);
+    const double added =
+        meaning_of(trim, static_cast<double>(fine) / full_scale(trim_bytes)).value_or(0);
+    const double gap = std::abs(*base + added - wanted);
+    if (gap > least + 1e-9 || (gap > least - 1e-9 && std::abs(added) >= least_trim)) continue;
+    best = {raw, fine};
+    least = gap;
+    least_trim = std::abs(added);
   }
   return best;
-}
-
-/// The segment that holds `fraction`; between two of them the nearer.
-const Segment* segment_at(const std::vector<Segment>& segments, double fraction) {
-  const Segment* best = nullptr;
-  double least = std::numeric_limits<double>::infinity();
-  for (const Segment& s : segments) {
-    const double gap = std::abs(fraction - std::clamp(fraction, s.dmx_from, s.dmx_to));
-    if (gap < least) least = gap, best = &s;
-  }
-  return best;
-}
-
-std::uint32_t raw_in(const ports::DmxFrame& frame, std::size_t first, int bytes) {
-  std::uint32_t raw = 0;
-  for (int i = 0; i < bytes; ++i)
-    raw = raw << 8u | frame.levels[first + static_cast<std::size_t>(i)];
-  return raw;
 }
 
 }  // namespace
@@ -103,33 +92,57 @@ Plan Plan::of(const studio::Studio& studio, core::Problems* warnings) {
 }
 
 void Plan::add(const studio::Fixture& fixture, std::size_t index) {
-  const auto& patch = std::get<studio::DmxPatch>(fixture.patch);
   const auto& mode = fixture.profile.modes.at(fixture.mode);
   const bool no_dimmer =
       !has_channel(mode, Dof::intensity) &&
       std::any_of(mode.channels.begin(), mode.channels.end(),
                   [](const studio::Channel& c) { return c.dof && is_drive(*c.dof); });
   no_dimmer_[index] = no_dimmer ? 1 : 0;
-  const auto universe = std::lower_bound(universes_.begin(), universes_.end(), patch.universe);
-  for (const auto& channel : mode.channels) {
-    Slot slot;
-    slot.fixture = static_cast<std::uint32_t>(index);
-    slot.universe = static_cast<std::uint32_t>(universe - universes_.begin());
-    slot.first = static_cast<std::uint16_t>(patch.address - 1 + channel.offset);
-    slot.bytes = static_cast<std::uint8_t>(channel.bytes);
-    slot.name = channel.name;
-    slot.curve = static_cast<std::uint32_t>(index);
-    slot.segments = channel.segments;
-    if (!channel.dof) {
-      slot.constant = raw_of(channel.constant, channel.bytes);
-    } else {
-      slot.dof = *channel.dof;
-      slot.law = set_by_hand(fixture, slot.dof)    ? Law::by_hand
-                 : slot.dof == Dof::intensity      ? Law::level
-                 : no_dimmer && is_drive(slot.dof) ? Law::dimmed_drive
-                                                   : Law::segments;
-    }
-    if (slot.first + slot.bytes <= ports::kSlots) slots_.push_back(std::move(slot));
+  const std::size_t from = slots_.size();
+  for (const auto& channel : fixture.wired_channels()) {
+    Slot slot = slot_of(fixture, index, channel, no_dimmer);
+    if (*std::max_element(slot.at.begin(), slot.at.begin() + slot.bytes) < ports::kSlots)
+      slots_.push_back(std::move(slot));
+  }
+  join_trims(from);
+}
+
+Plan::Slot Plan::slot_of(const studio::Fixture& fixture, std::size_t index,
+                         const studio::Channel& channel, bool no_dimmer) const {
+  const auto& patch = std::get<studio::DmxPatch>(fixture.patch);
+  Slot slot;
+  slot.fixture = static_cast<std::uint32_t>(index);
+  slot.universe = static_cast<std::uint32_t>(
+      std::lower_bound(universes_.begin(), universes_.end(), patch.universe) - universes_.begin());
+  slot.bytes = static_cast<std::uint8_t>(channel.bytes);
+  for (int byte = 0; byte < channel.bytes; ++byte)
+    slot.at[static_cast<std::size_t>(byte)] =
+        static_cast<std::uint16_t>(patch.address - 1 + channel.slot(byte));
+  slot.name = channel.name;
+  slot.use = channel.use;
+  slot.curve = static_cast<std::uint32_t>(index);
+  slot.segments = channel.segments;
+  if (!channel.dof) {
+    slot.constant = raw_of(channel.constant, channel.bytes);
+    return slot;
+  }
+  slot.constant = raw_of(channel.rest.value_or(0), channel.bytes);
+  slot.dof = *channel.dof;
+  slot.law = set_by_hand(fixture, slot.dof)    ? Law::by_hand
+             : slot.dof == Dof::intensity      ? Law::level
+             : no_dimmer && is_drive(slot.dof) ? Law::dimmed_drive
+                                               : Law::segments;
+  return slot;
+}
+
+/// Tells each controlling slot of this fixture which slot trims it.
+void Plan::join_trims(std::size_t from) {
+  for (std::size_t i = from; i < slots_.size(); ++i) {
+    if (slots_[i].law == Law::constant || slots_[i].use != studio::ChannelUse::trims) continue;
+    for (std::size_t k = from; k < slots_.size(); ++k)
+      if (slots_[k].law != Law::constant && slots_[k].dof == slots_[i].dof &&
+          slots_[k].use == studio::ChannelUse::controls)
+        slots_[k].trim = static_cast<std::int32_t>(i);
   }
 }
 
@@ -139,65 +152,69 @@ std::vector<ports::DmxFrame> Plan::blank_frames() const {
   return frames;
 }
 
-double Plan::drive(const Slot& slot, const FixtureState& state) const {
-  const auto& curve = curves_[slot.curve];
-  switch (slot.law) {
-    case Law::level: {
-      const double drive = drive_of_light(curve, state.get(Dof::intensity));
-      return slot.segments.empty() ? drive : fraction_of(slot.segments, drive);
-    }
-    case Law::dimmed_drive: {
-      const double light = state.get(slot.dof) * state.get(Dof::intensity);
-      const double drive = drive_of_light(curve, light);
-      return slot.segments.empty() ? drive : fraction_of(slot.segments, drive);
-    }
-    case Law::segments:
-      if (!state.has(slot.dof)) return 0;
-      return slot.segments.empty() ? state.get(slot.dof)
-                                   : fraction_of(slot.segments, state.get(slot.dof));
-    case Law::constant:
-    case Law::by_hand:
-      break;
-  }
-  return 0;
+namespace {
+
+/// The bytes of one channel in its frame.
+template <class Slot>
+void write(const Slot& slot, std::uint32_t raw, ports::DmxFrame& frame) {
+  for (unsigned i = 0; i < slot.bytes; ++i)
+    frame.levels[slot.at[i]] = static_cast<std::uint8_t>(raw >> (8u * (slot.bytes - 1u - i)) & 0xffu);
+}
+template <class Slot>
+double read_fraction(const Slot& slot, const ports::DmxFrame& frame) {
+  std::uint32_t raw = 0;
+  for (unsigned i = 0; i < slot.bytes; ++i) raw = raw << 8u | frame.levels[slot.at[i]];
+  return static_cast<double>(raw) / full_scale(slot.bytes);
+}
+
+}  // namespace
+
+/// What the channel must mean: a drive for light, else the DOF's own value.
+double Plan::meaning(const Slot& slot, const FixtureState& state) const {
+  if (slot.law == Law::level)
+    return drive_of_light(curves_[slot.curve], state.get(Dof::intensity));
+  if (slot.law == Law::dimmed_drive)
+    return drive_of_light(curves_[slot.curve], state.get(slot.dof) * state.get(Dof::intensity));
+  return state.get(slot.dof);
+}
+
+void Plan::put(const Slot& slot, const FixtureState& state, ports::DmxFrame& frame) const {
+  if (slot.law == Law::constant) return write(slot, slot.constant, frame);
+  if (slot.use == studio::ChannelUse::trims) return;  // written with what it trims
+  if (slot.law == Law::by_hand) return;
+  if (slot.law == Law::segments && !state.has(slot.dof)) return write(slot, slot.constant, frame);
+  const double wanted = meaning(slot, state);
+  if (slot.trim < 0) return write(slot, raw_of(fraction_of(slot.segments, wanted), slot.bytes), frame);
+  const Slot& trim = slots_[static_cast<std::size_t>(slot.trim)];
+  const auto [coarse, fine] =
+      coarse_and_trim(wanted, slot.segments, slot.bytes, trim.segments, trim.bytes);
+  write(slot, coarse, frame);
+  write(trim, fine, frame);
 }
 
 void Plan::encode(const rig::AllowedLevels& levels, std::span<ports::DmxFrame> frames) const {
   for (auto& frame : frames) frame.levels.fill(0);
-  for (const Slot& slot : slots_) {
-    const std::uint32_t raw =
-        slot.law == Law::constant
-            ? slot.constant
-            : raw_of(drive(slot, levels.fixtures()[slot.fixture]), slot.bytes);
-    auto& frame = frames[slot.universe];
-    for (unsigned i = 0; i < slot.bytes; ++i)
-      frame.levels[slot.first + i] =
-          static_cast<std::uint8_t>(raw >> (8u * (slot.bytes - 1u - i)) & 0xffu);
-  }
+  for (const Slot& slot : slots_)
+    put(slot, levels.fixtures()[slot.fixture], frames[slot.universe]);
 }
 
-void Plan::read(const Slot& slot, double fraction, FixtureState& state) const {
-  double value = fraction;
-  if (!slot.segments.empty()) {
-    const Segment* s = segment_at(slot.segments, fraction);
-    if (s->law == Segment::Law::no_effect) return;
-    const double width = s->dmx_to - s->dmx_from;
-    const double x = width == 0 || s->law == Segment::Law::neutral
-                         ? 0
-                         : std::clamp((fraction - s->dmx_from) / width, 0.0, 1.0);
-    value = s->physical_from + x * (s->physical_to - s->physical_from);
+void Plan::read(const Slot& slot, const ports::DmxFrame& frame, FixtureState& state) const {
+  auto value = meaning_of(slot.segments, read_fraction(slot, frame));
+  if (!value) return;
+  if (slot.trim >= 0) {
+    const Slot& trim = slots_[static_cast<std::size_t>(slot.trim)];
+    *value += meaning_of(trim.segments, read_fraction(trim, frame)).value_or(0);
   }
-  if (slot.law != Law::segments) value = light_of_drive(curves_[slot.curve], value);
-  state.set(slot.dof, value);
+  if (slot.law != Law::segments) *value = light_of_drive(curves_[slot.curve], *value);
+  state.set(slot.dof, *value);
 }
 
 void Plan::decode(std::span<const ports::DmxFrame> frames, std::span<FixtureState> fixtures) const {
   for (auto& state : fixtures) state = {};
-  for (const Slot& slot : slots_) {
-    if (slot.law == Law::constant || slot.law == Law::by_hand) continue;
-    const std::uint32_t raw = raw_in(frames[slot.universe], slot.first, slot.bytes);
-    read(slot, static_cast<double>(raw) / full_scale(slot.bytes), fixtures[slot.fixture]);
-  }
+  for (const Slot& slot : slots_)
+    if (slot.law != Law::constant && slot.law != Law::by_hand &&
+        slot.use == studio::ChannelUse::controls)
+      read(slot, frames[slot.universe], fixtures[slot.fixture]);
   for (std::size_t i = 0; i < fixtures.size(); ++i) {
     if (no_dimmer_[i] == 0) continue;
     FixtureState& state = fixtures[i];
@@ -214,19 +231,34 @@ void Plan::decode(std::span<const ports::DmxFrame> frames, std::span<FixtureStat
 std::vector<Plan::Line> Plan::sheet() const {
   std::vector<Line> lines;
   for (const Slot& slot : slots_) {
-    const std::string what = slot.law == Law::constant
-                                 ? "constant " + std::to_string(slot.constant)
-                                 : std::string(core::info(slot.dof).name) +
-                                       (slot.law == Law::dimmed_drive ? " x level" : "") +
-                                       (slot.law == Law::by_hand ? " (by hand)" : "");
-    lines.push_back({slot.fixture, universes_[slot.universe], slot.first + 1,
-                     slot.first + slot.bytes, slot.name,
-                     what + ", " + std::to_string(8 * slot.bytes) + " bit"});
+    const std::string law = law_in_words(slot) + ", " + std::to_string(8 * slot.bytes) + " bit";
+    // Bytes that stand apart are lines of their own.
+    unsigned from = 0;
+    for (unsigned i = 1; i <= slot.bytes; ++i) {
+      if (i < slot.bytes && slot.at[i] == slot.at[i - 1] + 1) continue;
+      lines.push_back({slot.fixture, universes_[slot.universe], slot.at[from] + 1,
+                       slot.at[i - 1] + 1, slot.name + (from > 0 ? " fine" : ""), law});
+      from = i;
+    }
   }
   std::stable_sort(lines.begin(), lines.end(), [](const Line& a, const Line& b) {
     return std::pair(a.universe, a.first) < std::pair(b.universe, b.first);
   });
   return lines;
+}
+
+std::string Plan::law_in_words(const Slot& slot) {
+  if (slot.law == Law::constant) {
+    const char* held = slot.use == studio::ChannelUse::open  ? "open "
+                       : slot.use == studio::ChannelUse::pwm ? "frequency "
+                                                             : "constant ";
+    return held + std::to_string(slot.constant);
+  }
+  std::string words(core::info(slot.dof).name);
+  if (slot.law == Law::dimmed_drive) words += " x level";
+  if (slot.law == Law::by_hand) words += " (by hand)";
+  if (slot.use == studio::ChannelUse::trims) words += ", added to the coarse one";
+  return words;
 }
 
 }  // namespace chiaro::patch

@@ -3,6 +3,7 @@
 // which law. The output encodes with it and the virtual studio decodes with it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -23,8 +24,11 @@ namespace chiaro::patch {
 ///   each is multiplied by the level and goes through the inverse curve. With an intensity channel
 ///   the drives are sent as they are;
 /// * every other DOF goes through the channel's segments;
+/// * a channel that trims is sent what the coarse channel, already rounded, leaves over; one that
+///   repeats is sent what the controlling one is; a head's pan and tilt are counted as it is mounted;
 /// * 1, 2 or 3 slots, most significant first, rounded once, here.
-/// A DOF that a hand sets, and one without a value, sends 0. Slots that nobody has are 0.
+/// A DOF that a hand sets sends 0, one without a value the channel's rest, or 0. Slots that nobody
+/// has are 0.
 class Plan {
  public:
   /// Precondition: the studio came from load_studio (addresses and modes are right). Warnings name
@@ -61,19 +65,26 @@ class Plan {
   enum class Law : std::uint8_t { constant, level, dimmed_drive, segments, by_hand };
   struct Slot {
     std::uint32_t fixture = 0;
-    std::uint32_t universe = 0;  ///< index into universes_
-    std::uint16_t first = 0;     ///< 0..511
+    std::uint32_t universe = 0;          ///< index into universes_
+    std::array<std::uint16_t, 3> at{};   ///< 0..511, most significant first
     std::uint8_t bytes = 1;
+    studio::ChannelUse use = studio::ChannelUse::controls;
+    std::int32_t trim = -1;              ///< of a controlling slot: the one that trims it
     Law law = Law::constant;
     core::Dof dof = core::Dof::intensity;
-    std::uint32_t constant = 0;  ///< raw
+    std::uint32_t constant = 0;  ///< raw, also at rest
     std::uint32_t curve = 0;     ///< index into curves_
     std::vector<studio::Segment> segments;
     std::string name;
   };
   void add(const studio::Fixture& fixture, std::size_t index);
-  double drive(const Slot& slot, const core::FixtureState& state) const;
-  void read(const Slot& slot, double fraction, core::FixtureState& state) const;
+  Slot slot_of(const studio::Fixture& fixture, std::size_t index, const studio::Channel& channel,
+               bool no_dimmer) const;
+  void join_trims(std::size_t from);
+  static std::string law_in_words(const Slot& slot);
+  double meaning(const Slot& slot, const core::FixtureState& state) const;
+  void put(const Slot& slot, const core::FixtureState& state, ports::DmxFrame& frame) const;
+  void read(const Slot& slot, const ports::DmxFrame& frame, core::FixtureState& state) const;
 
   std::size_t fixtures_ = 0;
   std::vector<std::uint16_t> universes_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a fixture can do as it is fitted, patched and mounted.
 #include <algorithm>
+#include <cstdlib>
 
 #include "controller/studio/profiles/profiles.h"
 #include "controller/studio/studio.h"
@@ -30,10 +31,72 @@ bool on_the_wire(const Fixture& fixture, Dof dof) {
   if (std::holds_alternative<NoPatch>(fixture.patch)) return false;
   if (fixture.mode >= fixture.profile.modes.size()) return false;
   const auto& channels = fixture.profile.modes[fixture.mode].channels;
-  // Without a dimmer channel the drives carry the level: every mode that lights can dim.
-  if (dof == Dof::intensity) return true;
-  return std::any_of(channels.begin(), channels.end(),
-                     [&](const Channel& channel) { return channel.dof == dof; });
+  // Without a dimmer channel the drives carry the level.
+  const auto carries = [&](const Channel& channel) {
+    const bool drive = channel.dof && *channel.dof >= Dof::red && *channel.dof <= Dof::cyan;
+    return channel.dof == dof || (dof == Dof::intensity && drive);
+  };
+  return std::any_of(channels.begin(), channels.end(), carries);
+}
+
+/// From the head's own angle to the mount's: straight, or the other way round.
+void count_from_neutral(Channel& channel, double head_neutral, bool inverted) {
+  const auto mounted = [&](double head) {
+    return inverted ? head_neutral - head : head - head_neutral;
+  };
+  for (Segment& segment : channel.segments) {
+    segment.physical_from = mounted(segment.physical_from);
+    segment.physical_to = mounted(segment.physical_to);
+  }
+}
+
+void mount_axis(const PanTiltMount& head, Channel& channel) {
+  const bool pans = (*channel.dof == Dof::pan) != head.swap;
+  channel.dof = pans ? Dof::pan : Dof::tilt;
+  if (channel.use == ChannelUse::trims) {
+    count_from_neutral(channel, 0, pans ? head.invert_pan : head.invert_tilt);
+  } else {
+    count_from_neutral(channel, pans ? head.head_pan : head.head_tilt,
+                       pans ? head.invert_pan : head.invert_tilt);
+  }
+}
+
+/// The motor's channel, or nothing when the axis is a bus's.
+std::optional<Channel> motor(const std::string& axis, int bytes, Dof dof, core::Range range) {
+  constexpr std::string_view kChannel = "channel:";
+  if (axis.rfind(kChannel, 0) != 0) return std::nullopt;
+  Channel channel;
+  channel.name = core::info(dof).name;
+  channel.dof = dof;
+  channel.bytes = bytes;
+  channel.offset = std::atoi(axis.c_str() + kChannel.size()) - 1;
+  channel.segments = {{0, 1, range.least, range.most, Segment::Law::continuous}};
+  return channel;
+}
+
+std::optional<Channel> motor_of(const Mount& mount) {
+  if (const auto* arc = std::get_if<ArcMount>(&mount))
+    return motor(arc->axis, arc->axis_bytes, Dof::arc, arc->angle);
+  if (const auto* track = std::get_if<TrackMount>(&mount))
+    return motor(track->axis, track->axis_bytes, Dof::track, {0, 1});
+  return std::nullopt;
+}
+
+/// What the head can reach of the mount's range; nothing when no channel moves it.
+std::optional<core::Range> head_range(const Fixture& fixture, Dof dof, core::Range mounted) {
+  if (std::holds_alternative<NoPatch>(fixture.patch)) return std::nullopt;
+  for (const Channel& channel : fixture.wired_channels()) {
+    if (channel.dof != dof || channel.use != ChannelUse::controls) continue;
+    core::Range reach{1e9, -1e9};
+    for (const Segment& s : channel.segments) {
+      if (s.law != Segment::Law::continuous) continue;
+      reach.least = std::min({reach.least, s.physical_from, s.physical_to});
+      reach.most = std::max({reach.most, s.physical_from, s.physical_to});
+    }
+    const core::Range both{std::max(reach.least, mounted.least), std::min(reach.most, mounted.most)};
+    return both.least <= both.most ? both : reach;
+  }
+  return std::nullopt;
 }
 
 std::optional<core::Range> light_range(const Fixture& fixture, Dof dof) {
@@ -62,10 +125,29 @@ std::vector<std::pair<Dof, core::Range>> Fixture::ranges() const {
   if (const auto* stand = std::get_if<StandMount>(&mount)) move_within(stand->region);
   if (const auto* free = std::get_if<VirtualMount>(&mount)) move_within(free->region);
   if (const auto* head = std::get_if<PanTiltMount>(&mount)) {
-    all.emplace_back(Dof::pan, head->pan);
-    all.emplace_back(Dof::tilt, head->tilt);
+    if (const auto pan = head_range(*this, Dof::pan, head->pan)) all.emplace_back(Dof::pan, *pan);
+    if (const auto tilt = head_range(*this, Dof::tilt, head->tilt))
+      all.emplace_back(Dof::tilt, *tilt);
   }
+  if (const auto* arc = std::get_if<ArcMount>(&mount)) all.emplace_back(Dof::arc, arc->angle);
+  if (std::holds_alternative<TrackMount>(mount)) all.emplace_back(Dof::track, core::Range{0, 1});
   return all;
+}
+
+std::vector<Channel> Fixture::wired_channels() const {
+  std::vector<Channel> channels;
+  if (mode < profile.modes.size()) channels = profile.modes[mode].channels;
+  if (const auto* head = std::get_if<PanTiltMount>(&mount))
+    for (Channel& channel : channels)
+      if (channel.dof == Dof::pan || channel.dof == Dof::tilt) mount_axis(*head, channel);
+  if (auto channel = motor_of(mount)) channels.push_back(std::move(*channel));
+  return channels;
+}
+
+int Fixture::footprint() const {
+  int slots = mode < profile.modes.size() ? std::max(1, profile.modes[mode].footprint) : 1;
+  if (const auto channel = motor_of(mount)) slots = std::max(slots, channel->offset + channel->bytes);
+  return slots;
 }
 
 }  // namespace chiaro::studio

@@ -32,10 +32,16 @@ core::Rgb light_colour(const Fixture& fixture, const core::FixtureState& state,
       return core::white_light({value(core::Dof::cct, emitter.cct.value)},
                                value(core::Dof::tint, 0), balance);
     case Emitter::Kind::bicolour:
+    case Emitter::Kind::blend:
       break;
   }
   const double cct = emitter.cct_range.clamp(balance.value);
-  return core::white_light({value(core::Dof::cct, cct)}, value(core::Dof::tint, 0), balance);
+  const core::Rgb white =
+      core::white_light({value(core::Dof::cct, cct)}, value(core::Dof::tint, 0), balance);
+  const double colours =
+      emitter.kind == Emitter::Kind::blend ? value(core::Dof::crossfade, 0) : 0;
+  return colours <= 0 ? white
+                      : (1 - colours) * white + colours * mixture(emitter, state, balance);
 }
 
 }  // namespace chiaro::studio

@@ -35,12 +35,16 @@ struct Primary {
 };
 
 struct Emitter {
-  enum class Kind { dimmer, bicolour, mixed };  ///< mixed = RGB, RGBW, RGBWW, RGBACL: see primaries
+  /// mixed = RGB, RGBW, RGBWW, RGBACL: see primaries. blend = a bicolour white and a mix of
+  /// primaries, each complete, with a channel that fades from the one to the other (DOF crossfade:
+  /// 0 the white alone, 1 the colours alone).
+  enum class Kind { dimmer, bicolour, mixed, blend };
   Kind kind = Kind::dimmer;
   core::Kelvin cct{5600};             ///< dimmer: its fixed colour
-  core::Range cct_range{3200, 5600};  ///< bicolour: kelvin
-  core::Range tint_range{0, 0};       ///< bicolour: Duv/1000
-  std::vector<Primary> primaries;     ///< mixed
+  core::Range cct_range{3200, 5600};  ///< bicolour, blend: kelvin
+  core::Range tint_range{0, 0};       ///< bicolour, blend: Duv/1000
+  std::vector<Primary> primaries;     ///< mixed, blend
+  bool has_white_mix() const { return kind == Kind::bicolour || kind == Kind::blend; }
 };
 
 /// How a level of linear light becomes a number on the wire.
@@ -61,6 +65,17 @@ struct Segment {
   Law law = Law::continuous;
 };
 
+/// What a channel is to its degree of freedom, or for what it is held.
+enum class ChannelUse {
+  controls,  ///< is its value: the DOF's own channel
+  trims,     ///< is *added* to the value of the channel that controls the DOF (coarse + trim: the
+             ///< ranges overlap, so this is no low byte)
+  repeats,   ///< carries the same value once more: the second, third … cell of the lamp
+  constant,  ///< no DOF: held for ever (a programme channel at "off")
+  open,      ///< no DOF: a shutter or strobe, held at "open"
+  pwm,       ///< no DOF: the frequency at which the LEDs are switched, held at `pwm_hz`
+};
+
 struct Channel {
   std::string name;
   std::optional<core::Dof> dof;   ///< none: constant (strobe at "open", a mode channel)
@@ -68,6 +83,14 @@ struct Channel {
   int offset = 0;                 ///< first slot, from the fixture's address
   double constant = 0;            ///< when no dof: raw fraction 0..1 sent for ever
   std::vector<Segment> segments;  ///< monotonic; one whole-range segment when the file gives none
+  ChannelUse use = ChannelUse::controls;  ///< meaningless without dof unless open or pwm
+  std::vector<int> finer;                 ///< slots of the lower bytes where they do not follow
+  double pwm_hz = 0;                      ///< pwm: as held
+  std::optional<double> rest;  ///< raw fraction sent while the DOF has no value; 0 when absent
+  /// Slot of byte 0 (most significant), 1 or 2, from the fixture's address.
+  int slot(int byte) const {
+    return byte == 0 || finer.empty() ? offset + byte : finer[static_cast<std::size_t>(byte - 1)];
+  }
 };
 
 struct Mode {
@@ -75,6 +98,9 @@ struct Mode {
   int footprint = 1;  ///< slots
   std::vector<Channel> channels;
 };
+
+/// What the lamp itself does when DMX stops coming.
+enum class OnLoss { unknown, hold, dark, full };
 
 struct Profile {
   std::string name;  ///< "generic/dimmer"
@@ -84,8 +110,19 @@ struct Profile {
   Emitter emitter;
   DimmerCurve curve;
   core::Range zoom{0, 0};
+  core::Range pan{0, 0}, tilt{0, 0};  ///< a moving head's own angles, 0 in the middle
   double body_radius = 0.15;  ///< metres: the lamp's body as a sphere, for feasibility
+  OnLoss on_loss = OnLoss::unknown;
+  /// What the file does not know and had to assume: "output", "beam", "colours", "cct".
+  std::vector<std::string> assumed;
   std::vector<Mode> modes;
 };
+
+/// The DMX fraction that means `value`, or the nearest that can be had; dead bands are met in
+/// their middle; `value` itself without segments. Real-time.
+double fraction_of(const std::vector<Segment>& segments, double value);
+/// What `fraction` means; between two segments the nearer counts. Nothing where it has no effect.
+/// Real-time.
+std::optional<double> meaning_of(const std::vector<Segment>& segments, double fraction);
 
 }  // namespace chiaro::studio

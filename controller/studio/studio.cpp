@@ -52,6 +52,9 @@ Rig placed_rig(const Studio& studio) {
       state.set(core::Dof::pan, head->pan.clamp(0));
       state.set(core::Dof::tilt, head->tilt.clamp(0));
     }
+    if (const auto* arc = std::get_if<ArcMount>(&fixture.mount)) state.set(core::Dof::arc, arc->at);
+    if (const auto* track = std::get_if<TrackMount>(&fixture.mount))
+      state.set(core::Dof::track, track->at);
     rig.states.push_back(state);
   }
   return rig;

@@ -95,15 +95,23 @@ struct ArcMount {
   double at = 0;
   bool vertical = false;  ///< else horizontal
   std::string axis;       ///< "channel:N" or "bus:register"
+  int axis_bytes = 1;     ///< of a channel
 };
 struct TrackMount {
   core::Vec3 from, to;
   double at = 0;  ///< 0..1 along it
   std::string axis;
+  int axis_bytes = 1;
 };
+/// A yoke with its pan axis upright. The DOFs pan and tilt count from the neutral aim: pan to the
+/// left seen from above, tilt upwards, through the pole and on.
 struct PanTiltMount {
   core::Vec3 at, aim_at;  ///< neutral aim
   core::Range pan{-core::kPi, core::kPi}, tilt{-core::kPi / 2, core::kPi / 2};
+  double head_pan = 0, head_tilt = 0;  ///< the head's own angles when it aims at `aim_at`
+  bool invert_pan = false;             ///< the head counts pan to the right seen from above
+  bool invert_tilt = false;            ///< the head counts tilt downwards
+  bool swap = false;                   ///< its pan channel tilts and its tilt channel pans
 };
 /// The thesis's free lamp on a sphere about the aim; constrained by default to the quarter sphere
 /// above and in front [I-5]. Diffuse and specular levels may differ on it alone.
@@ -174,8 +182,14 @@ struct Fixture {
   core::Candela fitted_output() const;
   /// Every DOF that this fixture has at all, with its range (inside units): intensity up to its
   /// limit, what the patched mode or a hand can set of colour and zoom, what the mount can move.
-  /// Arcs and tracks do not move yet. Nothing for an uncontrolled fixture.
+  /// Nothing for an uncontrolled fixture.
   std::vector<std::pair<core::Dof, core::Range>> ranges() const;
+  /// The channels of the patched mode as they act on this lamp as it is mounted: a head's pan and
+  /// tilt in the mount's angles, and the channel of an arc's or a track's motor after the mode's
+  /// own. What encodes, decodes and counts slots goes by these.
+  std::vector<Channel> wired_channels() const;
+  /// Slots from the address on, the motor's included; at least 1.
+  int footprint() const;
 };
 
 struct SacnOutput {

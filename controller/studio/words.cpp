@@ -29,11 +29,6 @@ std::string slots(int first, int last, int digits) {
   return text;
 }
 
-int footprint(const Fixture& fixture) {
-  return fixture.mode < fixture.profile.modes.size() ? fixture.profile.modes[fixture.mode].footprint
-                                                     : 1;
-}
-
 }  // namespace
 
 std::string place_in_words(const core::Spherical& place) {
@@ -59,7 +54,7 @@ std::string_view name_of(const Mount& mount) {
 }
 
 std::string patch_in_words(const Fixture& fixture) {
-  const int more = footprint(fixture) - 1;
+  const int more = fixture.footprint() - 1;
   if (const auto* dmx = std::get_if<DmxPatch>(&fixture.patch))
     return std::to_string(dmx->universe) + "." + slots(dmx->address, dmx->address + more, 3);
   if (const auto* bus = std::get_if<ModbusPatch>(&fixture.patch))

@@ -57,13 +57,38 @@ const std::vector<Golden> kGolden{
     {"generic/rgbw", "6ch-dimmer",
      {{Dof::intensity, 0.8}, {Dof::red, 1}, {Dof::green, 0.6}, {Dof::blue, 0.2}, {Dof::white, 0.4}},
      {204, 255, 153, 51, 102, 0}},
+    // +135 of -270..270: 0.75 * 65535 = 49151.25 = 0xbfff; -67.5 of -135..135: 0.25 * 65535 =
+    // 16383.75, 0x4000; zoom 25 of 10..40: 127.5; 25 kHz is the top of its range.
+    {"generic/moving-head", "8ch",
+     {{Dof::intensity, 0.4}, {Dof::pan, 2.356194490192345}, {Dof::tilt, -1.1780972450961724},
+      {Dof::zoom, 0.4363323129985824}},
+     {0xbf, 0xff, 0x40, 0x00, 102, 255, 128, 255}},
+    {"generic/moving-head", "8ch-fine-last",
+     {{Dof::intensity, 0.4}, {Dof::pan, 2.356194490192345}, {Dof::tilt, -1.1780972450961724},
+      {Dof::zoom, 0.4363323129985824}},
+     {0xbf, 0x40, 102, 255, 128, 0, 0xff, 0x00}},
+    // 4600 K is a quarter of 2800..10000: 63.75. Tint -5 is half way along 11..119: 65.
+    // The drives of a lamp with a dimmer go out as they are.
+    {"generic/two-mix-panel", "7ch",
+     {{Dof::intensity, 1}, {Dof::cct, 4600}, {Dof::tint, -5}, {Dof::crossfade, 0.2}, {Dof::red, 1},
+      {Dof::green, 0.6}, {Dof::blue, 0}},
+     {255, 64, 65, 51, 255, 153, 0}},
+    // Coarse steps of 1/255 and 30 K, trims of up to 10 % and 255 K added to them. 0.5 is 127 / 255
+    // = 0.498039 and 0.001961 more: 0.001961 / 0.1 * 255 = 5. 5617 K is 93 * 30 + 2800 = 5590 and 27.
+    {"generic/two-mix-panel", "4ch-trim", {{Dof::intensity, 0.5}, {Dof::cct, 5617}},
+     {127, 5, 93, 27}},
+    {"generic/two-mix-panel", "4ch-cells", {{Dof::intensity, 0.4}, {Dof::cct, 4600}},
+     {102, 64, 102, 64}},
 };
 // clang-format on
 
 TEST(PatchBytes, AreThoseWorkedOutByHand) {
   for (const Golden& golden : kGolden) {
-    const auto studio = support::studio_from(
-        support::studio_text(support::fixture_line("a", golden.profile, golden.mode, 1, 101)));
+    std::string line = support::fixture_line("a", golden.profile, golden.mode, 1, 101);
+    if (std::string(golden.profile) == "generic/moving-head")
+      line.replace(line.find("fixed: {"), 8,
+                   "pan_tilt: {pan: [-270 deg, 270 deg], tilt: [-135 deg, 135 deg], ");
+    const auto studio = support::studio_from(support::studio_text(line));
     core::FixtureState state;
     for (const auto& [dof, value] : golden.state) state.set(dof, value);
     rig::Governor governor(studio, ports::TimePoint(1s));

@@ -8,7 +8,11 @@
 namespace chiaro::support {
 namespace {
 
-double number(const YAML::Node& node) { return std::atof(node.as<std::string>().c_str()); }
+/// The number at the front of "540 deg", "10 %" or "0.3".
+double number(const YAML::Node& node) {
+  const auto words = node.as<std::string>();
+  return std::atof(words.c_str()) / (words.find('%') != std::string::npos ? 100 : 1);
+}
 
 double through_curve(const YAML::Node& curve, double drive) {
   const std::string law = curve.IsScalar() ? curve.as<std::string>() : "gamma";
@@ -24,23 +28,65 @@ bool is_emitter(const std::string& controls) {
   return false;
 }
 
-/// Least and greatest value of the DOF, as the profile's emitter says.
+/// Least and greatest value of the DOF, as the profile says of the whole lamp.
 std::pair<double, double> range_of(const YAML::Node& profile, const std::string& controls) {
-  const YAML::Node bicolour = profile["emitter"]["bicolour"];
-  if (controls == "cct") return {number(bicolour["cct"][0]), number(bicolour["cct"][1])};
-  if (controls == "tint") return {number(bicolour["tint"][0]), number(bicolour["tint"][1])};
+  const YAML::Node emitter = profile["emitter"];
+  const YAML::Node whites = emitter["bicolour"] ? emitter["bicolour"] : emitter["blend"];
+  for (const char* name : {"cct", "tint"})
+    if (controls == name && whites && whites[name])
+      return {number(whites[name][0]), number(whites[name][1])};
+  for (const char* name : {"zoom", "pan", "tilt"})
+    if (controls == name && profile[name])
+      return {number(profile[name][0]), number(profile[name][1])};
   return {0, 1};
 }
 
-double in_ranges(const YAML::Node& ranges, double raw) {
+struct Meant {
+  double value = std::nan(""), step = 0;
+};
+
+Meant in_ranges(const YAML::Node& ranges, double raw) {
   for (const YAML::Node& piece : ranges) {
     const double from = number(piece["dmx"][0]), to = number(piece["dmx"][1]);
     if (raw < from || raw > to) continue;
-    if (piece["neutral"]) return number(piece["neutral"]);
+    if (piece["no_effect"]) return {};
+    if (piece["neutral"]) return {number(piece["neutral"]), 0};
     const double low = number(piece["means"][0]), high = number(piece["means"][1]);
-    return low + (raw - from) / (to - from) * (high - low);
+    const double step = (high - low) / (to - from);
+    return {low + (raw - from) * step, std::abs(step)};
   }
-  return std::nan("");
+  return {};
+}
+
+struct Raw {
+  double value = 0, most = 0;
+};
+Raw raw_of(const std::vector<int>& at, std::span<const std::uint8_t> slots) {
+  Raw raw;
+  for (const int slot : at) {
+    raw.value = raw.value * 256 + slots[static_cast<std::size_t>(slot)];
+    raw.most = raw.most * 256 + 255;
+  }
+  return raw;
+}
+
+/// Where the channel's bytes stand; `next` is where it stands without a word about it.
+std::vector<int> slots_of(const YAML::Node& channel, int next) {
+  std::vector<int> at;
+  for (const YAML::Node& slot : channel["slots"]) at.push_back(slot.as<int>() - 1);
+  if (!at.empty()) return at;
+  const int first = channel["slot"] ? channel["slot"].as<int>() - 1 : next;
+  const int bytes = channel["bits"] ? channel["bits"].as<int>() / 8 : 1;
+  for (int i = 0; i < bytes; ++i) at.push_back(first + i);
+  return at;
+}
+
+/// The value that the channel gives, before any curve.
+Meant meant(const YAML::Node& profile, const YAML::Node& channel, const std::string& controls,
+            Raw raw) {
+  if (channel["ranges"]) return in_ranges(channel["ranges"], raw.value);
+  const auto [low, high] = range_of(profile, controls);
+  return {low + raw.value / raw.most * (high - low), (high - low) / raw.most};
 }
 
 }  // namespace
@@ -50,6 +96,10 @@ std::vector<std::string> modes_in(const std::filesystem::path& profile_file) {
   for (const auto& mode : YAML::LoadFile(profile_file.string())["modes"])
     names.push_back(mode.first.as<std::string>());
   return names;
+}
+
+bool has_head(const std::filesystem::path& profile_file) {
+  return static_cast<bool>(YAML::LoadFile(profile_file.string())["pan"]);
 }
 
 std::vector<DecodedChannel> decode_slots(const std::filesystem::path& profile_file,
@@ -62,30 +112,35 @@ std::vector<DecodedChannel> decode_slots(const std::filesystem::path& profile_fi
     has_dimmer =
         has_dimmer || (channel["controls"] && channel["controls"].as<std::string>() == "intensity");
   std::vector<DecodedChannel> decoded;
-  int slot = 0;
+  int next = 0;
   for (const YAML::Node& channel : channels) {
     DecodedChannel c;
-    if (channel["controls"]) c.controls = channel["controls"].as<std::string>();
-    c.bytes = channel["bits"] ? channel["bits"].as<int>() / 8 : 1;
-    c.slot = slot;
-    double raw = 0, most = 0;
-    for (int i = 0; i < c.bytes; ++i, ++slot) {
-      raw = raw * 256 + slots[static_cast<std::size_t>(slot)];
-      most = most * 256 + 255;
-    }
-    const auto [low, high] = range_of(profile, c.controls);
-    c.value = low + raw / most * (high - low);
-    c.step = (high - low) / most;
-    if (channel["ranges"]) {
-      c.value = in_ranges(channel["ranges"], raw);
-      c.whole = false;
-    }
-    if (c.controls == "intensity" || (is_emitter(c.controls) && !has_dimmer)) {
-      c.value = through_curve(profile["curve"], c.value);
-      c.step *= 2.5;  // the steepest of the curves above
-    }
+    for (const char* verb : {"controls", "repeats"})
+      if (channel[verb]) c.controls = channel[verb].as<std::string>();
+    c.at = slots_of(channel, next);
+    next = c.at.back() + 1;
+    const Meant own = meant(profile, channel, c.controls, raw_of(c.at, slots));
+    c.value = own.value;
+    c.step = own.step;
+    c.whole = !channel["ranges"] && !channel["repeats"];
     decoded.push_back(c);
   }
+  // What a trim adds, its channel's value gets.
+  for (std::size_t i = 0; i < decoded.size(); ++i)
+    if (channels[i]["trims"])
+      for (DecodedChannel& c : decoded)
+        if (c.controls == channels[i]["trims"].as<std::string>()) {
+          const Raw raw = raw_of(decoded[i].at, slots);
+          const Meant added = meant(profile, channels[i], c.controls, raw);
+          c.value += added.value;
+          c.step = added.step;
+          c.whole = false;
+        }
+  for (DecodedChannel& c : decoded)
+    if (c.controls == "intensity" || (is_emitter(c.controls) && !has_dimmer)) {
+      c.value = through_curve(profile["curve"], std::min(c.value, 1.0));
+      c.step *= 2.5;  // the steepest of the curves above
+    }
   return decoded;
 }
 

@@ -61,8 +61,8 @@ fixtures:
     role: hair
     profile: generic/dimmer
     mode: 1ch
-    mount: {track: {from: [-1, 1, 2.5], to: [1, 1, 2.5], at: 25 %, axis: {channel: 1}}}
-    patch: {universe: 2, address: 512}
+    mount: {track: {from: [-1, 1, 2.5], to: [1, 1, 2.5], at: 25 %, axis: {channel: 2}}}
+    patch: {universe: 2, address: 511}
   head:
     role: kicker
     profile: generic/rgb

@@ -18,7 +18,8 @@ std::string level_in_words(double intensity) {
 
 std::string colour_in_words(const studio::Fixture& fixture, const core::FixtureState& state) {
   using Kind = studio::Emitter::Kind;
-  if (fixture.profile.emitter.kind == Kind::bicolour && state.has(core::Dof::cct)) {
+  const bool white = state.get(core::Dof::crossfade) < 0.5;
+  if (fixture.profile.emitter.has_white_mix() && white && state.has(core::Dof::cct)) {
     std::string words = fmt::format("{:.0f} K", std::round(state.get(core::Dof::cct) / 10) * 10);
     const double tint = state.get(core::Dof::tint);
     if (std::fabs(tint) >= 0.5)
@@ -26,7 +27,7 @@ std::string colour_in_words(const studio::Fixture& fixture, const core::FixtureS
     return words;
   }
   std::string words;
-  if (fixture.profile.emitter.kind != Kind::mixed) return words;
+  if (fixture.profile.emitter.kind != Kind::mixed && white) return words;
   for (const studio::Primary& primary : fixture.profile.emitter.primaries) {
     const double drive = state.get(primary.dof);
     if (drive < 0.005) continue;

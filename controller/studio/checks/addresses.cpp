@@ -18,16 +18,30 @@ struct Claim {
   bool dmx;
 };
 
-int footprint(const Fixture& fixture) {
-  return fixture.mode < fixture.profile.modes.size()
-             ? std::max(1, fixture.profile.modes[fixture.mode].footprint)
-             : 1;
+/// A motor on the lamp's own patch takes a slot that the mode leaves free.
+void check_motor(const Fixture& fixture, reading::Report& report) {
+  const auto channels = fixture.wired_channels();
+  if (channels.empty()) return;
+  const Channel& motor = channels.back();
+  if (motor.dof != core::Dof::arc && motor.dof != core::Dof::track) return;
+  for (std::size_t i = 0; i + 1 < channels.size(); ++i)
+    for (int byte = 0; byte < channels[i].bytes; ++byte)
+      if (const int slot = channels[i].slot(byte);
+          slot >= motor.offset && slot < motor.offset + motor.bytes) {
+        const int free = fixture.profile.modes[fixture.mode].footprint + 1;
+        report.add({fixture.patch_place,
+                    "the axis of " + in_quotes(fixture.name) + " is on slot " +
+                        std::to_string(slot + 1) + ", where its lamp has " +
+                        in_quotes(channels[i].name),
+                    "the first free one is axis: {channel: " + std::to_string(free) + "}", false});
+        return;
+      }
 }
 
 std::vector<Claim> claims(const Studio& studio) {
   std::vector<Claim> all;
   for (const Fixture& fixture : studio.fixtures) {
-    const int length = footprint(fixture);
+    const int length = fixture.footprint();
     if (const auto* dmx = std::get_if<DmxPatch>(&fixture.patch))
       all.push_back({&fixture, "universe " + std::to_string(dmx->universe), dmx->address,
                      dmx->address + length - 1, true});
@@ -68,6 +82,8 @@ std::string free_words(const std::vector<Claim>& all, const Claim& wanted) {
 void check_addresses(const Studio& studio, reading::Report& report) {
   // Thousands of lamps may share a few lines: only neighbours in sorted order are compared.
   std::vector<Claim> all = claims(studio);
+  for (const Fixture& fixture : studio.fixtures)
+    if (std::holds_alternative<DmxPatch>(fixture.patch)) check_motor(fixture, report);
   for (const Claim& claim : all)
     if (claim.last > (claim.dmx ? 512 : 65535))
       report.add({claim.fixture->patch_place,

@@ -14,6 +14,19 @@ using namespace reading;
 namespace profiles {
 namespace {
 
+/// assumed: [output, beam] - what the maker does not say. The user is told, and may measure it.
+void read_assumed(const Tree* tree, Profile& profile, Report& report) {
+  if (tree == nullptr) return;
+  if (tree->kind != Tree::Kind::sequence) {
+    report.error(*tree, "'assumed' needs a list", "assumed: [output, beam]");
+    return;
+  }
+  const std::vector<std::string> words{"output", "beam", "colours", "cct", "pan", "tilt"};
+  for (const Tree& item : tree->items)
+    if (const auto index = word_among(&item, words, report))
+      profile.assumed.push_back(words[*index]);
+}
+
 Profile read_profile(const Tree& tree, const std::string& name, Report& report) {
   Section section(tree, "a profile", report);
   Profile profile;
@@ -41,6 +54,15 @@ Profile read_profile(const Tree& tree, const std::string& name, Report& report) 
   profile.curve = read_curve(section.find("curve"), report);
   into(profile.zoom,
        span(section.find("zoom"), Measure::angle, {core::radians(1), core::radians(179)}, report));
+  constexpr core::Range kTurns{-8 * core::kPi, 8 * core::kPi};
+  into(profile.pan, span(section.find("pan"), Measure::angle, kTurns, report));
+  into(profile.tilt, span(section.find("tilt"), Measure::angle, kTurns, report));
+  into(profile.on_loss, choice<OnLoss>(section.find("on_loss"),
+                                       {{"hold", OnLoss::hold},
+                                        {"dark", OnLoss::dark},
+                                        {"full", OnLoss::full}},
+                                       report));
+  read_assumed(section.find("assumed"), profile, report);
   into(profile.body_radius, quantity(section.find("body"), Measure::length, {0.01, 3}, report));
   profile.modes =
       read_modes(section.need("modes", "{1ch: [{controls: intensity}]}"), profile, report);

@@ -17,6 +17,13 @@ Optic read_optic(const reading::Tree* tree, reading::Report& report);
 Emitter read_emitter(const reading::Tree* tree, reading::Report& report);
 std::vector<Mode> read_modes(const reading::Tree* tree, const Profile& profile,
                              reading::Report& report);
+/// `next_slot`: where it stands when the file does not say.
+Channel read_channel(const reading::Tree& tree, int next_slot, const Profile& profile,
+                     reading::Report& report);
+/// Into channel.segments; the channel's use, DOF and bytes are known.
+void read_ranges(const reading::Tree& tree, Channel& channel, reading::Report& report);
+/// The greatest raw value of so many bytes.
+double full_scale(int bytes);
 /// Also the patch's `curve:` in a studio file.
 DimmerCurve read_curve(const reading::Tree* tree, reading::Report& report);
 

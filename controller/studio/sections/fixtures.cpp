@@ -55,6 +55,26 @@ void read_mode(const Tree* tree, const Tree::Key& key, Fixture& fixture, Report&
                  suggestion(tree->text, names));
 }
 
+/// A mode without the lamp's amber cannot light its amber: what the mode leaves out stays dark.
+void keep_what_the_mode_reaches(Fixture& fixture) {
+  Emitter& emitter = fixture.profile.emitter;
+  if (fixture.mode >= fixture.profile.modes.size() || emitter.primaries.empty()) return;
+  const auto& channels = fixture.profile.modes[fixture.mode].channels;
+  const auto reached = [&](core::Dof dof) {
+    return std::any_of(channels.begin(), channels.end(),
+                       [&](const Channel& channel) { return channel.dof == dof; });
+  };
+  emitter.primaries.erase(
+      std::remove_if(emitter.primaries.begin(), emitter.primaries.end(),
+                     [&](const Primary& primary) { return !reached(primary.dof); }),
+      emitter.primaries.end());
+  const bool white = emitter.kind == Emitter::Kind::blend && reached(core::Dof::cct);
+  if (emitter.primaries.empty())
+    emitter.kind = white ? Emitter::Kind::bicolour : Emitter::Kind::dimmer;
+  else if (!white)
+    emitter.kind = Emitter::Kind::mixed;
+}
+
 /// White balance or as near as the lamp comes; drives full: the profile's white.
 core::FixtureState first_colour(const Fixture& fixture, const Studio& studio) {
   core::FixtureState state;
@@ -62,7 +82,8 @@ core::FixtureState first_colour(const Fixture& fixture, const Studio& studio) {
     if (dof == core::Dof::intensity) state.set(dof, 0);
     if (dof == core::Dof::cct) state.set(dof, range.clamp(studio.exposure.white_balance.value));
     if (dof == core::Dof::tint) state.set(dof, range.clamp(0));
-    if (dof > core::Dof::tint && core::is_colour(dof)) state.set(dof, 1);
+    if (dof > core::Dof::tint && core::is_colour(dof))
+      state.set(dof, dof == core::Dof::crossfade ? 0 : 1);
   }
   if (!fixture.controlled) state.set(core::Dof::intensity, 1);
   return state;
@@ -108,6 +129,9 @@ Fixture read_fixture(const Tree::Key& key, const Tree& tree, Context& context,
   const Tree* patch = section.find("patch");
   fixture.patch = read_patch(patch, studio, context);
   fixture.patch_place = patch != nullptr ? report.place(*patch) : fixture.place;
+  if (std::holds_alternative<DmxPatch>(fixture.patch) &&
+      !std::holds_alternative<VirtualMount>(fixture.mount))
+    keep_what_the_mode_reaches(fixture);
   fixture.limits = read_limits(section.find("limits"), context);
   fixture.curve = fixture.profile.curve;
   if (const Tree* curve = section.find("curve"))

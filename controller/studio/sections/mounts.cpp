@@ -31,6 +31,16 @@ Mount read_fixed(const Tree& tree, Report& report) {
   return mount;
 }
 
+/// neutral: {pan: 15 deg, tilt: -40 deg} - what the head itself shows when it aims at `aim_at`.
+void read_neutral(const Tree* tree, PanTiltMount& mount, Report& report) {
+  if (tree == nullptr) return;
+  constexpr core::Range kTurn{-4 * core::kPi, 4 * core::kPi};
+  Section section(*tree, "a head's neutral angles", report);
+  into(mount.head_pan, quantity(section.need("pan", "0 deg"), Measure::angle, kTurn, report));
+  into(mount.head_tilt, quantity(section.need("tilt", "45 deg"), Measure::angle, kTurn, report));
+  section.refuse_unknown();
+}
+
 Mount read_pan_tilt(const Tree& tree, Report& report) {
   Section section(tree, "a pan_tilt mount", report);
   PanTiltMount mount;
@@ -38,6 +48,10 @@ Mount read_pan_tilt(const Tree& tree, Report& report) {
   constexpr core::Range kTurn{-4 * core::kPi, 4 * core::kPi};
   into(mount.pan, span(section.find("pan"), Measure::angle, kTurn, report));
   into(mount.tilt, span(section.find("tilt"), Measure::angle, kTurn, report));
+  read_neutral(section.find("neutral"), mount, report);
+  into(mount.invert_pan, yes_or_no(section.find("invert_pan"), report));
+  into(mount.invert_tilt, yes_or_no(section.find("invert_tilt"), report));
+  into(mount.swap, yes_or_no(section.find("swap"), report));
   section.refuse_unknown();
   return mount;
 }
@@ -111,8 +125,8 @@ Mount read_virtual(const Tree* tree, Report& report) {
   return mount;
 }
 
-/// axis: {channel: 3} of the lamp's own patch, or {modbus: BUS, register: N}.
-std::string read_axis(const Tree* tree, const Studio& studio, Context& context) {
+/// axis: {channel: 3, bits: 16} of the lamp's own patch, or {modbus: BUS, register: N}.
+std::string read_axis(const Tree* tree, const Studio& studio, int& bytes, Context& context) {
   if (tree == nullptr) return "";
   Report& report = context.report;
   Section section(*tree, "an axis", report);
@@ -123,6 +137,7 @@ std::string read_axis(const Tree* tree, const Studio& studio, Context& context) 
     report.error(*tree, "an axis needs either a channel or a register",
                  "{channel: 3} counts in the lamp's patch, or {modbus: BUS, register: 40}");
   if (channel != nullptr) {
+    into(bytes, choice<int>(section.find("bits"), {{"8", 1}, {"16", 2}}, report));
     if (const auto n = whole(channel, 1, 512, report)) axis = "channel:" + std::to_string(*n);
   } else if (bus != nullptr) {
     const auto name = text(bus, report);
@@ -151,7 +166,7 @@ Mount read_arc(const Tree& tree, const Studio& studio, Context& context) {
     report.error(*at_tree, "the lamp stands outside its own arc", "move 'at', or widen 'angle'");
   into(arc.vertical,
        choice<bool>(section.find("plane"), {{"horizontal", false}, {"vertical", true}}, report));
-  arc.axis = read_axis(section.need("axis", "{channel: 3}"), studio, context);
+  arc.axis = read_axis(section.need("axis", "{channel: 3}"), studio, arc.axis_bytes, context);
   section.refuse_unknown();
   return arc;
 }
@@ -167,7 +182,8 @@ Mount read_track(const Tree& tree, const Studio& studio, Context& context) {
   if (from && to && core::distance(*from, *to) < 1e-3)
     report.error(tree, "the track has no length", "move 'from' or 'to'");
   into(track.at, fraction(section.need("at", "50 %"), report));
-  track.axis = read_axis(section.need("axis", "{channel: 3}"), studio, context);
+  track.axis =
+      read_axis(section.need("axis", "{channel: 3}"), studio, track.axis_bytes, context);
   section.refuse_unknown();
   return track;
 }

@@ -42,6 +42,16 @@ studio::Studio with_channels(std::vector<studio::Channel> channels, int footprin
   return studio;
 }
 
+studio::Channel channel(const std::string& name, std::optional<Dof> dof, int offset,
+                        std::vector<studio::Segment> segments = {}) {
+  studio::Channel made;
+  made.name = name;
+  made.dof = dof;
+  made.offset = offset;
+  made.segments = std::move(segments);
+  return made;
+}
+
 TEST(Plan, PutsTheLastSlotOfAUniverseWhereItBelongs) {
   const auto frames =
       encoded(one("generic/daylight-dimmer", "3ch-24bit", 510), {state({{Dof::intensity, 1}})});
@@ -54,8 +64,9 @@ TEST(Plan, PutsTheLastSlotOfAUniverseWhereItBelongs) {
 }
 
 TEST(Plan, SendsConstantsForEverAndNothingForHandsAndUnpatchedLamps) {
-  studio::Channel strobe{"strobe", std::nullopt, 1, 0, 1.0, {}};
-  studio::Channel level{"dimmer", Dof::intensity, 1, 1, 0, {}};
+  studio::Channel strobe = channel("strobe", std::nullopt, 0);
+  strobe.constant = 1;
+  const studio::Channel level = channel("dimmer", Dof::intensity, 1);
   auto studio = with_channels({strobe, level}, 2);
   EXPECT_EQ(encoded(studio, {FixtureState{}})[0].levels[0], 255);
   studio.fixtures[0].by_hand.push_back({Dof::intensity, studio::HandKind::knob, std::nullopt});
@@ -73,14 +84,11 @@ TEST(Plan, SendsZeroForALampWithoutValues) {
 
 TEST(Plan, MeetsTheMiddleOfADeadBandAndStaysOutOfIt) {
   using Segment = studio::Segment;
-  studio::Channel tint{"tint",
-                       Dof::intensity,
-                       1,
-                       0,
-                       0,
-                       {{0, 100.0 / 255, 0, 0.5, Segment::Law::continuous},
-                        {101.0 / 255, 151.0 / 255, 0.5, 0.5, Segment::Law::neutral},
-                        {152.0 / 255, 1, 0.5, 1, Segment::Law::continuous}}};
+  const studio::Channel tint =
+      channel("tint", Dof::intensity, 0,
+              {{0, 100.0 / 255, 0, 0.5, Segment::Law::continuous},
+               {101.0 / 255, 151.0 / 255, 0.5, 0.5, Segment::Law::neutral},
+               {152.0 / 255, 1, 0.5, 1, Segment::Law::continuous}});
   const auto studio = with_channels({tint}, 1);
   const auto byte = [&](double v) {
     return encoded(studio, {state({{Dof::intensity, v}})})[0].levels[0];
@@ -104,6 +112,57 @@ TEST(Plan, DimsTheDrivesOfALampWithoutADimmer) {
   EXPECT_NEAR(back[0].get(Dof::intensity), 128 / 255.0, 1e-12);
   EXPECT_NEAR(back[0].get(Dof::red), 1, 1e-12);
   EXPECT_NEAR(back[0].get(Dof::green), 0.5, 1e-12);
+}
+
+TEST(Plan, SplitsAValueIntoACoarseStepAndATrimAndAddsThemUpAgain) {
+  const auto studio = one("generic/two-mix-panel", "4ch-trim");
+  const Plan plan = Plan::of(studio);
+  for (int i = 0; i <= 1000; ++i) {
+    const double level = i / 1000.0, kelvin = 2800 + 7.2 * i;
+    const auto frames = encoded(studio, {state({{Dof::intensity, level}, {Dof::cct, kelvin}})});
+    std::vector<FixtureState> back(1);
+    plan.decode(frames, back);
+    EXPECT_NEAR(back[0].get(Dof::intensity), level, 0.51 * 0.1 / 255);
+    EXPECT_NEAR(back[0].get(Dof::cct), kelvin, 0.51);
+  }
+}
+
+TEST(Plan, CountsAHeadsAnglesAsItHangs) {
+  // Hung upside down the head counts pan the other way, and shows 20 and 40 degrees when it aims
+  // at its neutral point: 30 degrees to the left and 10 up are its pan -10 and tilt 50.
+  const auto studio = support::studio_from(support::studio_text(
+      "  a: {role: key, profile: generic/moving-head, mode: 8ch, mount: {pan_tilt: {at: [-1, -1, 3], "
+      "aim_at: [0, 0, 1.4], neutral: {pan: 20 deg, tilt: 40 deg}, invert_pan: yes}}, patch: "
+      "{universe: 1, address: 1}}\n"));
+  const auto frames = encoded(studio, {state({{Dof::intensity, 1},
+                                              {Dof::pan, core::radians(30)},
+                                              {Dof::tilt, core::radians(10)}})});
+  const auto raw = [&](int slot) { return 256 * frames[0].levels[slot] + frames[0].levels[slot + 1]; };
+  EXPECT_EQ(raw(0), 31554);  // (-10 + 270) / 540 * 65535 = 31553.9
+  EXPECT_EQ(raw(2), 44904);  // (50 + 135) / 270 * 65535 = 44903.6
+  std::vector<FixtureState> back(1);
+  Plan::of(studio).decode(frames, back);
+  EXPECT_NEAR(core::degrees(back[0].get(Dof::pan)), 30, 0.005);
+  EXPECT_NEAR(core::degrees(back[0].get(Dof::tilt)), 10, 0.005);
+}
+
+TEST(Plan, MovesAnArcAndATrackOnTheirOwnChannels) {
+  const auto studio = support::studio_from(support::studio_text(
+      "  a: {role: key, profile: generic/dimmer, mode: 1ch, mount: {arc: {centre: [0, 0, 1.4], "
+      "radius: 1.8 m, angle: [-80 deg, 80 deg], at: 0 deg, axis: {channel: 2, bits: 16}}}, patch: "
+      "{universe: 1, address: 1}}\n"
+      "  b: {role: back, profile: generic/dimmer, mode: 1ch, mount: {track: {from: [-2, 1, 2.5], to: "
+      "[2, 1, 2.5], at: 50 %, axis: {channel: 2}}}, patch: {universe: 1, address: 4}}\n"));
+  EXPECT_EQ(studio.fixtures[0].footprint(), 3);
+  const auto frames = encoded(studio, {state({{Dof::intensity, 0}, {Dof::arc, core::radians(40)}}),
+                                       state({{Dof::intensity, 0}, {Dof::track, 0.2}})});
+  EXPECT_EQ(frames[0].levels[1], 0xbf);  // 0.75 * 65535 = 49151.25
+  EXPECT_EQ(frames[0].levels[2], 0xff);
+  EXPECT_EQ(frames[0].levels[4], 51);
+  std::vector<FixtureState> back(2);
+  Plan::of(studio).decode(frames, back);
+  EXPECT_NEAR(core::degrees(back[0].get(Dof::arc)), 40, 0.002);
+  EXPECT_NEAR(back[1].get(Dof::track), 0.2, 1e-9);
 }
 
 TEST(Plan, WarnsOfModbusForWhichThereIsNoDriverYet) {

@@ -6,6 +6,7 @@
 #include "controller/studio/load.h"
 #include "tests/support/fake_world.h"
 #include "tests/support/studio_text.h"
+#include "tests/support/studios.h"
 
 namespace chiaro::studio {
 namespace {
@@ -50,16 +51,38 @@ TEST_F(FixtureOf, RangesOfAStandWithTwoChannels) {
 }
 
 TEST_F(FixtureOf, OnlyWhatItsModeControls) {
-  // 3ch-tint has a tint channel; the arc does not move yet.
-  EXPECT_EQ(fixture("fill").ranges(),
-            (Ranges{{Dof::intensity, {0, 1}}, {Dof::cct, {2700, 6500}}, {Dof::tint, {-10, 10}}}));
+  // 3ch-tint has a tint channel, and the arc its angle.
+  EXPECT_EQ(fixture("fill").ranges(), (Ranges{{Dof::intensity, {0, 1}},
+                                              {Dof::cct, {2700, 6500}},
+                                              {Dof::tint, {-10, 10}},
+                                              {Dof::arc, {core::radians(-80), core::radians(80)}}}));
+  EXPECT_EQ(fixture("hair").ranges(),
+            (Ranges{{Dof::intensity, {0, 1}}, {Dof::track, {0, 1}}}));
   // Without a dimmer channel the drives carry the level.
   EXPECT_EQ(fixture("drive").ranges(), (Ranges{{Dof::intensity, {0, 1}},
                                                {Dof::red, {0, 1}},
                                                {Dof::green, {0, 1}},
                                                {Dof::blue, {0, 1}},
                                                {Dof::white, {0, 1}}}));
-  EXPECT_EQ(fixture("head").ranges().back().first, Dof::tilt);
+  // A head whose mode has no channel for pan and tilt does not turn.
+  EXPECT_EQ(fixture("head").ranges().back().first, Dof::blue);
+}
+
+TEST(Ranges, OfAHeadAreWhatItsChannelsReachOfWhatItsMountAllows) {
+  const Studio studio = support::studio_from(support::studio_text(
+      "  a: {role: key, profile: generic/moving-head, mode: 8ch, mount: {pan_tilt: {at: [-1, -1, 3], "
+      "aim_at: [0, 0, 1.4], pan: [-400 deg, 90 deg], tilt: [-200 deg, 30 deg], neutral: {pan: 20 deg, "
+      "tilt: 100 deg}, invert_tilt: yes}}, patch: {universe: 1, address: 1}}\n"));
+  const auto ranges = studio.fixtures[0].ranges();
+  const auto range = [&](Dof dof) {
+    for (const auto& [each, its] : ranges)
+      if (each == dof) return core::Range{core::degrees(its.least), core::degrees(its.most)};
+    return core::Range{0, 0};
+  };
+  EXPECT_NEAR(range(Dof::pan).least, -290, 1e-9);  // -270 of the head, 20 before
+  EXPECT_NEAR(range(Dof::pan).most, 90, 1e-9);     // the mount's
+  EXPECT_NEAR(range(Dof::tilt).least, -35, 1e-9);  // 100 - 135
+  EXPECT_NEAR(range(Dof::tilt).most, 30, 1e-9);
 }
 
 TEST_F(FixtureOf, WhatHandsSetHasTheHandsRange) {

@@ -131,7 +131,7 @@ TEST_F(Grammar, EveryKindOfMount) {
   EXPECT_EQ(arc.axis, "rail:7");
   const auto& track = std::get<TrackMount>(studio.fixture("hair")->mount);
   EXPECT_DOUBLE_EQ(track.at, 0.25);
-  EXPECT_EQ(track.axis, "channel:1");
+  EXPECT_EQ(track.axis, "channel:2");
   const auto& head = std::get<PanTiltMount>(studio.fixture("head")->mount);
   EXPECT_DOUBLE_EQ(head.pan.least, core::radians(-270));
   const auto& fixed = std::get<FixedMount>(studio.fixture("tungsten")->mount);

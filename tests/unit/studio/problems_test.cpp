@@ -133,7 +133,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"TwoPatchesInOne", "{modbus: rail, register: 40}",
              "{modbus: rail, register: 40, universe: 1}", "universe",
              "a patch has no setting 'universe' (known here: modbus or register)"},
-        Case{"AddressBeyondTheUniverse", "address: 512", "address: 513", "513",
+        Case{"AddressBeyondTheUniverse", "address: 511", "address: 513", "513",
              "'address' is '513', expected a whole number, 1 to 512 (correct the value)"},
         Case{"OverlapOnABus", "{modbus: rail, register: 40}\n    curve: square",
              "{modbus: rail, register: 40}\n    curve: square\n  twin: {role: background, profile: "

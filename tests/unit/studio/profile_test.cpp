@@ -130,6 +130,60 @@ TEST(ProfileFile, WhatIsWrongIsSaidWithItsPlace) {
             "fall, else one wish has two raw values)\n");
 }
 
+TEST(ProfileFile, AChannelMayTrimRepeatStandOpenOrHoldAFrequency) {
+  const Profile profile = good(
+      std::string(kBicolour) +
+      "modes:\n  m:\n    - {controls: intensity}\n"
+      "    - {trims: intensity, ranges: [{dmx: [0, 255], means: [0 %, 10 %]}]}\n"
+      "    - {repeats: intensity}\n    - {open: 51}\n"
+      "    - {pwm: 2400 Hz, ranges: [{dmx: [0, 255], means: [300 Hz, 5400 Hz]}]}\n"
+      "    - {controls: cct, slots: [6, 9], rest: 65535}\n");
+  const auto& channels = profile.modes[0].channels;
+  ASSERT_EQ(channels.size(), 6u);
+  EXPECT_EQ(channels[1].use, ChannelUse::trims);
+  EXPECT_DOUBLE_EQ(channels[1].segments[0].physical_to, 0.1);
+  EXPECT_EQ(channels[2].use, ChannelUse::repeats);
+  EXPECT_EQ(channels[3].use, ChannelUse::open);
+  EXPECT_DOUBLE_EQ(channels[3].constant, 0.2);
+  EXPECT_EQ(channels[4].use, ChannelUse::pwm);
+  EXPECT_NEAR(channels[4].constant, 2100.0 / 5100, 1e-12);
+  EXPECT_DOUBLE_EQ(channels[4].pwm_hz, 2400);
+  EXPECT_EQ(channels[5].slot(0), 5);
+  EXPECT_EQ(channels[5].slot(1), 8);
+  EXPECT_EQ(channels[5].rest, 1.0);
+  EXPECT_EQ(profile.modes[0].footprint, 9);
+}
+
+TEST(ProfileFile, WhatFollowsNeedsSomethingToFollow) {
+  EXPECT_EQ(wrong(std::string(kBicolour) +
+                  "modes: {m: [{controls: intensity}, {trims: cct, ranges: [{dmx: [0, 255], means: [0 "
+                  "K, 255 K]}]}]}\n"),
+            "b.yaml:7:12: no channel of this mode controls 'cct', yet one follows it (write "
+            "{controls: …} for the first or coarse one)\n");
+}
+
+TEST(ProfileFile, ASpectrumIsAColour) {
+  const Profile profile = good(
+      "emitter: {mixed: {red: {spectrum: [[620, 0], [630, 1], [640, 0]], share: 0.3}, white: "
+      "{spectrum: [[380, 1], [780, 1]], share: 0.7}}}\nmodes: {m: [{controls: red}, {controls: "
+      "white}]}\n");
+  // A narrow red near 630 nm lies at CIE x 0.71, y 0.29; equal energy at 1/3, 1/3.
+  EXPECT_NEAR(profile.emitter.primaries[0].chromaticity.x, 0.708, 0.01);
+  EXPECT_NEAR(profile.emitter.primaries[0].chromaticity.y, 0.292, 0.01);
+  EXPECT_NEAR(profile.emitter.primaries[1].chromaticity.x, 1.0 / 3, 0.01);
+  EXPECT_NEAR(profile.emitter.primaries[1].chromaticity.y, 1.0 / 3, 0.01);
+}
+
+TEST(ProfileFile, ABlendHasWhitesColoursAndAFadeBetweenThem) {
+  const Profile profile = good(
+      "emitter: {blend: {cct: [2800 K, 10000 K], red: {chromaticity: [0.69, 0.31], share: 0.4}, "
+      "green: {chromaticity: [0.17, 0.7], share: 0.6}}}\nmodes: {m: [{controls: intensity}, "
+      "{controls: cct}, {controls: crossfade}, {controls: red}, {controls: green}]}\n");
+  EXPECT_EQ(profile.emitter.kind, Emitter::Kind::blend);
+  EXPECT_DOUBLE_EQ(profile.modes[0].channels[2].segments[0].physical_to, 1);
+  EXPECT_DOUBLE_EQ(profile.modes[0].channels[1].segments[0].physical_from, 2800);
+}
+
 TEST(ProfileFile, ItsNameIsItsPath) {
   const auto profile = parse_profile(
       with(std::string(kDimmer) + "modes: {m: [{controls: intensity}]}\n"), "a/c", "c.yaml");
