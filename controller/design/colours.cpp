@@ -87,13 +87,13 @@ double colour_distance(core::Rgb a, core::Rgb b) {
 
 bool mixes(const studio::Emitter& emitter) {
   return emitter.kind == studio::Emitter::Kind::mixed ||
-         (emitter.kind == studio::Emitter::Kind::bicolour && emitter.cct_range.width() > 0);
+         (emitter.has_white_mix() && emitter.cct_range.width() > 0);
 }
 
 core::FixtureState with_values(const studio::Fixture& fixture, core::FixtureState state,
                                std::span<const double> values) {
   const studio::Emitter& emitter = fixture.profile.emitter;
-  if (emitter.kind == studio::Emitter::Kind::bicolour) {
+  if (emitter.has_white_mix()) {
     state.set(core::Dof::cct, mired(values[0]));
     if (values.size() > 1) state.set(core::Dof::tint, values[1]);
     return state;
@@ -182,7 +182,7 @@ std::vector<Mixer> mixers_of(const Setting& setting, const studio::Rig& rig) {
     const auto inverse = [](double channel) { return channel > 1e-6 ? 1 / channel : 0; };
     mixer.neutral = tinted(patches_of(setting, fixture, white),
                            {inverse(light.r), inverse(light.g), inverse(light.b)});
-    if (lamp.profile.emitter.kind == studio::Emitter::Kind::bicolour)
+    if (lamp.profile.emitter.has_white_mix())
       add_bicolour_values(lamp, mixer);
     else
       add_mixed_values(lamp.profile.emitter, level, mixer);
@@ -207,8 +207,8 @@ core::Picture the_rest(const Setting& setting, const studio::Rig& rig,
 
 /// How the picture changes with one value of one lamp, by central difference.
 core::Picture slope(const Setting& setting, const Mixer& mixer, std::size_t value) {
-  const bool bicolour = setting.studio.fixtures[mixer.fixture].profile.emitter.kind ==
-                        studio::Emitter::Kind::bicolour;
+  const bool bicolour =
+      setting.studio.fixtures[mixer.fixture].profile.emitter.has_white_mix();
   const double step = !bicolour ? 1e-3 : value == 0 ? kMiredStep : kTintStep;
   std::vector<double> values = mixer.values;
   values[value] = mixer.ranges[value].clamp(mixer.values[value] + step);
