@@ -112,10 +112,9 @@ bool Answers::wait(Condition condition) const {
 }
 
 bool Answers::done(const Wish& wish) {
-  const std::int64_t before = housekeeper_.newest_report().sent_ns;
   const std::uint64_t number = hand_.wish(wish);
   return number != 0 && wait([&] { return hand_.obeyed(number); }) &&
-         wait([&] { return housekeeper_.newest_report().sent_ns > before; });
+         wait([&] { return housekeeper_.newest_report().sent_ns >= hand_.obeyed_at_ns(); });
 }
 
 std::string Answers::to(const std::string& line) {

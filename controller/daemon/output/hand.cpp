@@ -21,6 +21,7 @@ void Hand::take_wishes(ports::TimePoint now) {
   std::uint64_t done = obeyed_.load(std::memory_order_relaxed);
   if (done == laid_down) return;
   for (; done < laid_down; ++done) show_->obey(wishes_[done % kWishes], now);
+  obeyed_at_ns_.store(now.time_since_epoch().count(), std::memory_order_release);
   obeyed_.store(done, std::memory_order_release);
 }
 

@@ -42,6 +42,8 @@ class Hand {
   /// decided on.
   std::uint64_t wish(const Wish& wish);
   bool obeyed(std::uint64_t wish) const { return obeyed_.load(std::memory_order_acquire) >= wish; }
+  /// When the newest obeyed wish was: what is reported of then or later shows it.
+  std::int64_t obeyed_at_ns() const { return obeyed_at_ns_.load(std::memory_order_acquire); }
   std::uint64_t frames() const { return frames_.load(std::memory_order_relaxed); }
 
   // One thread, one list at a time: hands the loop other cues; the old list comes back.
@@ -81,6 +83,7 @@ class Hand {
 
   std::mutex wishing_;  ///< of those who wish, among themselves
   std::array<Wish, kWishes> wishes_;
+  std::atomic<std::int64_t> obeyed_at_ns_{0};
   std::atomic<std::uint64_t> wished_{0}, obeyed_{0};  ///< how many were laid down, and decided on
 };
 
