@@ -66,14 +66,22 @@ class GeometricLayers : public Layers {
   void luminance(std::size_t fixture, const core::FixtureState& state, Accuracy accuracy,
                  core::Plane& out) const override {
     with_visible(fixture, state, accuracy, [&](const twin::Light& light, const auto& visible) {
-      render::luminance(view_, light, twin_.gain, &visible, out);
+      render::luminance(view_, light, twin_.gain, &visible, out, shading(accuracy));
+    });
+  }
+
+  void luminance_and_visibility(std::size_t fixture, const core::FixtureState& state,
+                                Accuracy accuracy, core::Plane& out,
+                                core::Plane& seen) const override {
+    with_visible(fixture, state, accuracy, [&](const twin::Light& light, const auto& visible) {
+      render::luminance(view_, light, twin_.gain, &visible, out, shading(accuracy), &seen);
     });
   }
 
   void colour(std::size_t fixture, const core::FixtureState& state, Accuracy accuracy,
               core::Layer& out) const override {
     with_visible(fixture, state, accuracy, [&](const twin::Light& light, const auto& visible) {
-      render::colour(view_, light, twin_.gain, &visible, out);
+      render::colour(view_, light, twin_.gain, &visible, out, shading(accuracy));
     });
   }
 
@@ -91,6 +99,11 @@ class GeometricLayers : public Layers {
 
   const Twin& twin() const { return twin_; }
   const render::View& view() const { return view_; }
+
+  render::Shading shading(Accuracy accuracy) const {
+    return accuracy == Accuracy::cached && !twin_.options.reference ? render::Shading::quick
+                                                                    : render::Shading::exact;
+  }
 
   twin::Light light(std::size_t fixture, const core::FixtureState& state) const {
     return twin::light(twin_.studio.fixtures[fixture], state, twin_.geometry->aim,

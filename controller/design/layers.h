@@ -41,6 +41,13 @@ class Layers {
   /// The same view of a subject of one diffuse colour all over, gloss as it is; null where the
   /// twin does not know what is skin and what is light. Borrows this.
   virtual std::unique_ptr<Layers> with_skin(core::Rgb diffuse) const;
+  /// Both in one pass: the same answers, for less than the price of two.
+  virtual void luminance_and_visibility(std::size_t fixture, const core::FixtureState& state,
+                                        Accuracy accuracy, core::Plane& out,
+                                        core::Plane& seen) const {
+    luminance(fixture, state, accuracy, out);
+    visibility(fixture, state, accuracy, seen);
+  }
   /// Empty when the fixture may stand there with the others as in `rig`; else why not.
   virtual std::string infeasible(const studio::Rig& rig, std::size_t fixture) const = 0;
 };

@@ -37,15 +37,32 @@ Workspace::Workspace(const Setting& setting)
   columns_.bounds = setting.variables.limits;
   for (const core::Plane& plane : planes_) columns_.planes.push_back(&plane);
   columns_.offset = &offset_;
-  if (key_) columns_.lit = &lit_;
+  if (key_) {
+    lit_ = core::Plane(setting.layers.size());
+    columns_.lit = &lit_;
+  }
 }
 
 void Workspace::fetch(const studio::Rig& rig, std::size_t fixture, core::Plane& plane,
                       core::FixtureState& known) {
   const core::FixtureState wanted = at_full(rig.states[fixture]);
   if (wanted == known) return;
-  setting_.layers.luminance(fixture, wanted, setting_.accuracy, plane);
+  if (key_ == fixture && !(wanted == key_known_)) {
+    setting_.layers.luminance_and_visibility(fixture, wanted, setting_.accuracy, plane, lit_);
+    key_known_ = wanted;
+  } else {
+    setting_.layers.luminance(fixture, wanted, setting_.accuracy, plane);
+  }
   known = wanted;
+}
+
+/// For a key whose level is not solved: others brought theirs with their layers.
+void Workspace::fetch_shadows(const studio::Rig& rig) {
+  if (!key_) return;
+  const core::FixtureState wanted = at_full(rig.states[*key_]);
+  if (wanted == key_known_) return;
+  setting_.layers.visibility(*key_, wanted, setting_.accuracy, lit_);
+  key_known_ = wanted;
 }
 
 void Workspace::fetch_offset(const studio::Rig& rig) {
@@ -70,11 +87,7 @@ const Columns& Workspace::columns(const studio::Rig& rig) {
   const auto& lit = setting_.variables.lit;
   for (std::size_t k = 0; k < lit.size(); ++k) fetch(rig, lit[k], planes_[k], known_[k]);
   fetch_offset(rig);
-  if (key_ && !(at_full(rig.states[*key_]) == key_known_)) {
-    key_known_ = at_full(rig.states[*key_]);
-    lit_ = core::Plane(setting_.layers.size());
-    setting_.layers.visibility(*key_, key_known_, setting_.accuracy, lit_);
-  }
+  fetch_shadows(rig);
   return columns_;
 }
 

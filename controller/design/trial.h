@@ -52,6 +52,7 @@ class Workspace {
   void fetch(const studio::Rig& rig, std::size_t fixture, core::Plane& plane,
              core::FixtureState& known);
   void fetch_offset(const studio::Rig& rig);
+  void fetch_shadows(const studio::Rig& rig);
   bool feasible(const studio::Rig& rig) const;
 
   const Setting setting_;

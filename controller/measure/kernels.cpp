@@ -135,7 +135,7 @@ class Pass {
     for (int y = 0; y < height_; ++y) {
       if (y + 1 < height_) load(y + 1);
       measure_row(y);
-      count_row();
+      count_row(y);
       find_edges(y);
       sum_runs(y);
     }
@@ -179,7 +179,8 @@ class Pass {
     const std::size_t lanes = hn::Lanes(d);
     const V shift = hn::Set(d, sums_.shift);
     V weight = hn::Zero(d), first = hn::Zero(d), second = hn::Zero(d), gradient = hn::Zero(d);
-    for (std::size_t x = 0; x < width_; x += lanes) {
+    const PixelIndex::Span shown = in_.map->index.shown[static_cast<std::size_t>(y)];
+    for (std::size_t x = shown.begin / lanes * lanes; x < shown.end; x += lanes) {
       const auto type = hn::PromoteTo(di, hn::LoadU(du, type_.data() + x));
       const auto surface =
           hn::RebindMask(d, hn::Eq(type, hn::Set(di, static_cast<int>(PixelType::surface))));
@@ -205,12 +206,13 @@ class Pass {
   }
 
   /// Four tables, so that equal neighbours do not wait for each other's store.
-  void count_row() {
-    std::size_t x = 0;
+  void count_row(int y) {
+    const PixelIndex::Span shown = in_.map->index.shown[static_cast<std::size_t>(y)];
+    std::size_t x = shown.begin;
     const std::int32_t* bin = bins_.data();
-    for (; x + 4 <= width_; x += 4)
+    for (; x + 4 <= shown.end; x += 4)
       for (std::size_t t = 0; t < 4; ++t) ++tables_[t][bin[x + t]];
-    for (; x < width_; ++x) ++tables_[0][bin[x]];
+    for (; x < shown.end; ++x) ++tables_[0][bin[x]];
   }
 
   void find_edges(int y) {

@@ -31,6 +31,11 @@ struct PixelIndex {
     std::uint32_t first, second;
   };
   std::vector<std::uint32_t> edge_x, edge_row;  ///< edge pixels of row y: edge_row[y]..[y + 1]
+  /// Pixels begin <= x < end of a row hold all that is not background; begin == end: nothing.
+  struct Span {
+    std::uint32_t begin = 0, end = 0;
+  };
+  std::vector<Span> shown;  ///< one per row
   std::vector<Run> row_runs;
   std::vector<std::uint32_t> row_runs_row;
   std::vector<std::uint32_t> column_begins, column_begins_row;

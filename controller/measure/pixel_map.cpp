@@ -172,6 +172,18 @@ void index_edges(PixelIndex& index, const core::Grid<PixelType>& type) {
   }
 }
 
+void index_spans(PixelIndex& index, const core::Grid<PixelType>& type) {
+  const auto shows = [](PixelType t) { return t != PixelType::background; };
+  for (int y = 0; y < type.size.height; ++y) {
+    const PixelType *row = type.row(y), *end = row + type.size.width;
+    const PixelType* first = std::find_if(row, end, shows);
+    const PixelType* last = end;
+    while (last > first && !shows(last[-1])) --last;
+    index.shown.push_back(
+        {static_cast<std::uint32_t>(first - row), static_cast<std::uint32_t>(last - row)});
+  }
+}
+
 }  // namespace
 
 PixelMap pixel_map_of(core::Grid<PixelType> type, core::Grid<std::uint8_t> external,
@@ -187,6 +199,7 @@ PixelMap pixel_map_of(core::Grid<PixelType> type, core::Grid<std::uint8_t> exter
   map.externals = static_cast<std::size_t>(
       std::count(map.external.values.begin(), map.external.values.end(), 1));
   index_edges(map.index, map.type);
+  index_spans(map.index, map.type);
   index_contrast(map.index, map.type, part);
   return map;
 }

@@ -2,9 +2,13 @@
 #include "controller/optimise/optimiser.h"
 
 #include "controller/optimise/optimisers/annealing.h"
+#include "controller/optimise/optimisers/bobyqa.h"
 #include "controller/optimise/optimisers/cmaes.h"
+#include "controller/optimise/optimisers/crs2.h"
 #include "controller/optimise/optimisers/descent.h"
 #include "controller/optimise/optimisers/genetic.h"
+#include "controller/optimise/optimisers/lbfgs.h"
+#include "controller/optimise/optimisers/mlsl.h"
 #include "controller/optimise/optimisers/sbplx.h"
 
 namespace chiaro::optimise {

@@ -24,8 +24,12 @@ using Point = std::vector<double>;
 /// a pure function of the point. +infinity marks an infeasible point.
 using Cost = std::function<double(std::span<const double>)>;
 
+/// The cost and, into the second argument, its derivatives by each variable (one per bound).
+using Gradient = std::function<double(std::span<const double>, std::span<double>)>;
+
 struct Task {
   Cost cost;
+  Gradient gradient;                ///< may be empty; optimisers that can use it do
   std::vector<core::Range> bounds;  ///< finite; least == most fixes a variable
   std::vector<Point> starts;    ///< tried first, in order; more are drawn when the budget allows
   std::uint64_t trials = 1000;  ///< evaluations, over all threads

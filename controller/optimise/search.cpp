@@ -55,6 +55,14 @@ double Problem::cost(std::span<const double> unit) const {
   return std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
 }
 
+double Problem::cost(std::span<const double> unit, std::span<double> gradient) const {
+  Point whole(task_.bounds.size());
+  const double value = task_.gradient(point_of(unit), whole);
+  for (std::size_t k = 0; k < free_.size(); ++k)
+    gradient[k] = whole[free_[k]] * task_.bounds[free_[k]].width();
+  return std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
+}
+
 void Ledger::finished(double value) {
   if (!task_.progress) return;
   const std::lock_guard lock(mutex_);
@@ -62,10 +70,11 @@ void Ledger::finished(double value) {
   task_.progress(++trials_, best_);
 }
 
-double Run::evaluate(std::span<const double> unit) {
+template <class Cost>
+double Run::tried(std::span<const double> unit, const Cost& cost) {
   stopped_ = stopped_ || ledger_->stopped();
   if (stopped_ || used_ >= budget_) return std::numeric_limits<double>::infinity();
-  const double value = problem_->cost(unit);
+  const double value = cost();
   ++used_;
   if (best_.empty() || value < value_) {
     best_.assign(unit.begin(), unit.end());
@@ -74,6 +83,15 @@ double Run::evaluate(std::span<const double> unit) {
   }
   ledger_->finished(value);
   return value;
+}
+
+double Run::evaluate(std::span<const double> unit) {
+  return tried(unit, [&] { return problem_->cost(unit); });
+}
+
+double Run::evaluate(std::span<const double> unit, std::span<double> gradient) {
+  std::fill(gradient.begin(), gradient.end(), 0.0);
+  return tried(unit, [&] { return problem_->cost(unit, gradient); });
 }
 
 void Record::absorb(const Run& run, bool is_basin) {
@@ -132,6 +150,18 @@ std::vector<double> evaluate_all(const Problem& problem, Ledger& ledger, Record&
                 [&](std::size_t i) { values[i] = runs[i].evaluate(units[i]); });
   for (const Run& run : runs) record.absorb(run, false);
   return values;
+}
+
+Outcome only_point(const Problem& problem, Ledger& ledger, Record& record) {
+  evaluate_all(problem, ledger, record, std::vector<Point>{{}});
+  return record.finish();
+}
+
+Point best_start(const Problem& problem, Ledger& ledger, Record& record) {
+  std::vector<Point> starts;
+  for (const Point& start : problem.task().starts) starts.push_back(problem.unit_of(start));
+  evaluate_all(problem, ledger, record, starts);
+  return std::isfinite(record.value()) ? record.best() : Point(problem.dimension(), 0.5);
 }
 
 std::vector<std::size_t> distinct(std::span<const Point> units, std::span<const double> values,

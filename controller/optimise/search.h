@@ -20,6 +20,9 @@ class Problem {
   Point unit_of(std::span<const double> point) const;
   /// NaN counts as infeasible.
   double cost(std::span<const double> unit) const;
+  /// The same, and its derivatives by the unit variables. Precondition: has_gradient().
+  double cost(std::span<const double> unit, std::span<double> gradient) const;
+  bool has_gradient() const { return static_cast<bool>(task_.gradient); }
   const Task& task() const { return task_; }
 
  private:
@@ -48,6 +51,8 @@ class Run {
       : problem_(&problem), ledger_(&ledger), budget_(budget) {}
   /// +infinity, and nothing evaluated, once the share is used up or the caller has stopped.
   double evaluate(std::span<const double> unit);
+  /// With derivatives, one trial too; they are 0 where nothing was evaluated.
+  double evaluate(std::span<const double> unit, std::span<double> gradient);
   bool over() const { return used_ >= budget_ || stopped_ || ledger_->stopped(); }
 
   const Point& best() const { return best_; }  ///< unit; empty before the first trial
@@ -57,6 +62,9 @@ class Run {
   const std::vector<Outcome::Step>& steps() const { return steps_; }
 
  private:
+  template <class Cost>
+  double tried(std::span<const double> unit, const Cost& cost);
+
   const Problem* problem_;
   Ledger* ledger_;
   std::uint64_t budget_, used_ = 0;
@@ -95,6 +103,11 @@ void for_each_task(int threads, std::size_t count, const std::function<void(std:
 /// left at +infinity.
 std::vector<double> evaluate_all(const Problem& problem, Ledger& ledger, Record& record,
                                  std::span<const Point> units);
+
+/// How optimisers begin. Without a free variable there is one point, and the task is done; else the
+/// caller's starts are tried: the best of them in the unit cube, its middle where none is feasible.
+Outcome only_point(const Problem& problem, Ledger& ledger, Record& record);
+Point best_start(const Problem& problem, Ledger& ledger, Record& record);
 
 /// Of points sorted by value, the first `most` that are at least `apart` from each other in the
 /// unit cube (a root mean square distance per variable). Infeasible ones are left out.

@@ -29,12 +29,13 @@ struct Lit {
   const float *glossy, *visible;
 };
 Lit light_tile(const View& view, const twin::Light& light, const Visible* visible, std::size_t t,
-               Tile& tile) {
+               Tile& tile, Shading shading) {
   const Samples& samples = *view.samples;
   float* glossy = samples.glossy(t) ? tile.glossy.data() : nullptr;
-  kernels::shade(samples, light, t, tile.irradiance.data(), glossy);
   if (visible != nullptr) visible->tile(t, tile.visible.data());
-  return {glossy, visible != nullptr ? tile.visible.data() : nullptr};
+  const float* seen = visible != nullptr ? tile.visible.data() : nullptr;
+  kernels::shade(samples, light, t, tile.irradiance.data(), glossy, shading, seen);
+  return {glossy, seen};
 }
 
 void clear_unseen(const Samples& samples, core::Plane& plane, float value) {
@@ -60,9 +61,10 @@ void Traced::tile(std::size_t tile, float* out) const {
 }
 
 void luminance(const View& view, const twin::Light& light, double gain, const Visible* visible,
-               core::Plane& out) {
+               core::Plane& out, Shading shading, core::Plane* seen) {
   const Samples& samples = *view.samples;
   clear_unseen(samples, out, 0);
+  if (seen != nullptr) clear_unseen(samples, *seen, 1);
   const core::Rgb c = light.colour;
   const bool neutral = c.r == c.g && c.g == c.b;
   const float rgb[3] = {static_cast<float>(gain * c.r) * core::kLuminance[0],
@@ -71,7 +73,9 @@ void luminance(const View& view, const twin::Light& light, double gain, const Vi
   const auto y = static_cast<float>(gain * core::luminance(c));
   over_tiles(samples, visible, [&](std::size_t t) {
     Tile tile;
-    const Lit lit = light_tile(view, light, visible, t, tile);
+    const Lit lit = light_tile(view, light, visible, t, tile, shading);
+    if (seen != nullptr && lit.visible != nullptr)
+      samples.scatter(t, lit.visible, seen->values.data());
     if (neutral)
       kernels::combine(samples.channel(Samples::diffuse_y) + t * kTile, tile.irradiance.data(),
                        lit.glossy, lit.visible, y, y, tile.out.data(), kTile);
@@ -84,7 +88,7 @@ void luminance(const View& view, const twin::Light& light, double gain, const Vi
 }
 
 void colour(const View& view, const twin::Light& light, double gain, const Visible* visible,
-            core::Layer& out) {
+            core::Layer& out, Shading shading) {
   const Samples& samples = *view.samples;
   for (core::Picture* part : {&out.diffuse, &out.specular})
     for (core::Plane* plane : {&part->red, &part->green, &part->blue})
@@ -97,7 +101,7 @@ void colour(const View& view, const twin::Light& light, double gain, const Visib
   const std::array albedo{Samples::diffuse_r, Samples::diffuse_g, Samples::diffuse_b};
   over_tiles(samples, visible, [&](std::size_t t) {
     Tile tile;
-    const Lit lit = light_tile(view, light, visible, t, tile);
+    const Lit lit = light_tile(view, light, visible, t, tile, shading);
     for (std::size_t k = 0; k < 3; ++k) {
       const auto gc = static_cast<float>(gain * c[k]);
       kernels::combine(samples.channel(albedo[k]) + t * kTile, tile.irradiance.data(), nullptr,

@@ -3,6 +3,7 @@
 // geometric twin calls for every trial.
 #pragma once
 
+#include "controller/render/samples.h"
 #include "controller/render/shadow.h"
 #include "controller/render/view.h"
 
@@ -32,12 +33,13 @@ class Traced : public Visible {
 };
 
 /// Diffuse + specular luminance of the light at full level, exposure applied. `visible` may be
-/// null: no shadows. `out` has the view's size.
+/// null: no shadows. `out` is resized as needed. `seen`, where given, also gets what `visibility`
+/// gives, in the same pass.
 void luminance(const View& view, const twin::Light& light, double gain, const Visible* visible,
-               core::Plane& out);
+               core::Plane& out, Shading shading = Shading::exact, core::Plane* seen = nullptr);
 /// In colour, diffuse and specular apart; `out` is resized as needed.
 void colour(const View& view, const twin::Light& light, double gain, const Visible* visible,
-            core::Layer& out);
+            core::Layer& out, Shading shading = Shading::exact);
 /// 1 where nothing is seen.
 void visibility(const View& view, const Visible& visible, core::Plane& out);
 

@@ -87,33 +87,46 @@ HWY_INLINE V arc_cosine(V x) {
   return hn::IfThenElse(hn::Lt(x, zero()), hn::Sub(set(3.14159265f), acute), acute);
 }
 
-/// x^k for x >= 0 (0 gives 0), by exp2(k log2 x). Relative error about 2e-7 (1 + k |log2 x|).
-HWY_INLINE V power(V x, V k) {
+/// 1 / v for |v| of 1e-30 .. 1e30.
+HWY_INLINE V reciprocal(V v) {
+  V r = hn::ApproximateReciprocal(v);
+#if HWY_ARCH_ARM
+  r = hn::Mul(r, hn::NegMulAdd(v, r, set(2)));
+#endif
+  return hn::Mul(r, hn::NegMulAdd(v, r, set(2)));
+}
+
+/// log2 of x >= 1e-30; of the logarithm of the mantissa 4e-7 may be wrong.
+HWY_INLINE V log2_of(V x) {
   const hn::RebindToSigned<D> di;
-  const M dark = hn::Lt(x, set(1e-30f));
   const auto bits = hn::BitCast(di, hn::Max(x, set(1e-30f)));
   const auto exponent = hn::ShiftRight<23>(hn::Sub(bits, hn::Set(di, 0x3f3504f3)));
   const V m = hn::BitCast(D(), hn::Sub(bits, hn::ShiftLeft<23>(exponent)));
   const V t = hn::Sub(m, set(1));  // mantissa about 1: -0.29 .. 0.41
   const V t2 = hn::Mul(t, t), t4 = hn::Mul(t2, t2);
-  V p = polynomial(t, t2, t4, -0.5f, 3.3333331174e-1f, -2.4999993993e-1f, 2.0000714765e-1f,
-                   -1.6668057665e-1f, 1.4249322787e-1f, -1.2420140846e-1f, 1.1676998740e-1f,
-                   -1.1514610310e-1f);
-  p = hn::MulAdd(hn::Mul(set(7.0376836292e-2f), t), hn::Mul(t4, t4), p);
+  const V p = polynomial(t, t2, t4, -0.500000912f, 0.333341136f, -0.249824512f, 0.199290571f,
+                         -0.171323873f, 0.15984096f, -0.101885865f);
   const V ln = hn::MulAdd(t2, p, t);
-  const V log2 = hn::MulAdd(ln, set(1.44269504f), hn::ConvertTo(D(), exponent));
-  // Nothing below 2^-60: it could not be seen, and products with it would turn denormal and slow.
-  const V asked = hn::Mul(k, log2);
-  const M none = hn::Or(dark, hn::Lt(asked, set(-60)));
+  return hn::MulAdd(ln, set(1.44269504f), hn::ConvertTo(D(), exponent));
+}
+
+/// 2^y for y up to 120, and nothing below 2^-60: it could not be seen, and products with it would
+/// turn denormal and slow. To 4e-6.
+HWY_INLINE V exp2_or_none(V asked) {
+  const hn::RebindToSigned<D> di;
   const V y = hn::Max(asked, set(-60));
   const V whole = hn::Round(y);
   const V f = hn::Sub(y, whole);
   const V f2 = hn::Mul(f, f);
-  const V e = polynomial(f, f2, hn::Mul(f2, f2), 1, 6.931472028550421e-1f, 2.402264791363012e-1f,
-                         5.550332471162809e-2f, 9.618437357674640e-3f, 1.339887440266574e-3f,
-                         1.535336188319500e-4f);
+  const V e = hn::MulAdd(hn::MulAdd(set(0.00966636852f), f2, pair(f, 0.24022349f, 0.0559219758f)),
+                         f2, pair(f, 1, 0.693121045f));
   const auto scale = hn::ShiftLeft<23>(hn::Add(hn::ConvertTo(di, whole), hn::Set(di, 127)));
-  return hn::IfThenZeroElse(none, hn::Mul(e, hn::BitCast(D(), scale)));
+  return hn::IfThenZeroElse(hn::Lt(asked, set(-60)), hn::Mul(e, hn::BitCast(D(), scale)));
+}
+
+/// x^k for x >= 0 (0 gives 0), by exp2(k log2 x). Relative error about 4e-6 + 4e-7 k |log2 x|.
+HWY_INLINE V power(V x, V k) {
+  return hn::IfThenZeroElse(hn::Lt(x, set(1e-30f)), exp2_or_none(hn::Mul(k, log2_of(x))));
 }
 
 }  // namespace chiaro::render::kernels::HWY_NAMESPACE

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <list>
 #include <mutex>
 #include <optional>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 #include <unordered_map>
 
 #include "controller/render/kernels.h"
@@ -68,9 +71,11 @@ Grid grid(const studio::Fixture& fixture, GridSpacing spacing) {
   return out;
 }
 
-/// One place of one fixture: a bit or a byte per sample.
+/// One place of one fixture: a bit or a byte per sample. Its tiles are filled by whoever needs the
+/// place, each by one thread: nobody who waits for it is idle, and the answer is the same.
 struct Place {
-  std::once_flag filled;
+  explicit Place(std::size_t bytes) : data(bytes, 0) {}
+  std::atomic<std::size_t> next{0}, done{0};  ///< tiles begun, tiles filled
   std::vector<std::uint8_t> data;
 };
 using PlacePointer = std::shared_ptr<Place>;
@@ -148,6 +153,8 @@ struct VisibilityCache::State {
     return (soft(fixture) ? samples : samples / 8) + 8;
   }
 
+  std::size_t tiles() const { return view.samples->tiles(); }
+
   PlacePointer find(std::size_t fixture, const Corner& c) {
     const std::uint64_t key = (static_cast<std::uint64_t>(fixture) << 48u) |
                               (static_cast<std::uint64_t>(c.elevation) << 32u) |
@@ -160,7 +167,7 @@ struct VisibilityCache::State {
     }
     by_age.push_front(key);
     const std::size_t size = bytes_of(fixture);
-    const auto place = std::make_shared<Place>();
+    const auto place = std::make_shared<Place>(size);
     entries.emplace(key, Entry{place, by_age.begin(), size});
     bytes += size;
     while (bytes > budget && by_age.size() > 1) {
@@ -172,28 +179,44 @@ struct VisibilityCache::State {
     return place;
   }
 
-  /// Serial by intent: a thread that waits for another's place must not be lent other work
-  /// meanwhile.
-  void fill(std::size_t fixture, const core::FixtureState& where, Strata strata,
-            Place& place) const {
-    const studio::Fixture& f = studio.fixtures[fixture];
-    const twin::Light light =
-        twin::light(f, where, view.tracer->geometry().aim, studio.exposure.white_balance);
-    place.data.assign(bytes_of(fixture), 0);
-    const bool bytes_each = soft(fixture);
+  /// A place that is not filled yet, and the lamp there.
+  struct Gap {
+    Place& place;
+    twin::Light light;
+  };
+
+  void fill_tile(const Gap& gap, bool bytes_each, Strata strata) const {
+    const std::size_t tile = gap.place.next.fetch_add(1, std::memory_order_relaxed);
+    if (tile >= tiles()) return;
     std::array<float, kTile> values;
-    const std::size_t samples = view.buffer.samples();
-    for (std::size_t first = 0; first < samples; first += kTile) {
-      const std::size_t n = std::min(kTile, samples - first);
-      trace_fraction(view, light, strata, first, {values.data(), n});
-      for (std::size_t k = 0; k < n; ++k)
-        if (bytes_each)
-          place.data[first + k] = static_cast<std::uint8_t>(std::lround(255 * values[k]));
-        else if (values[k] > 0.5f)
-          place.data[(first + k) / 8] |= static_cast<std::uint8_t>(1u << (k % 8));
-    }
+    const std::size_t first = tile * kTile, n = view.samples->in_tile(tile);
+    trace_fraction(view, gap.light, strata, first, {values.data(), n});
+    std::uint8_t* to = gap.place.data.data();
+    for (std::size_t k = 0; k < n; ++k)
+      if (bytes_each)
+        to[first + k] = static_cast<std::uint8_t>(std::lround(255 * values[k]));
+      else if (values[k] > 0.5f)
+        to[(first + k) / 8] |= static_cast<std::uint8_t>(1u << (k % 8));
+    if (gap.place.done.fetch_add(1, std::memory_order_acq_rel) + 1 < tiles()) return;
     work().nodes += 1;
+    gap.place.done.notify_all();
   }
+
+  /// Isolated: while this thread waits for others' tiles it must not take up another trial, which
+  /// may hold what the caller is in the middle of.
+  void fill(const std::vector<Gap>& gaps, bool bytes_each, Strata strata) const {
+    tbb::this_task_arena::isolate([&] {
+      tbb::parallel_for(std::size_t{0}, gaps.size() * tiles(),
+                        [&](std::size_t k) { fill_tile(gaps[k / tiles()], bytes_each, strata); });
+    });
+    // What other callers have begun they will end: they hold no lock and wait for nothing.
+    for (const Gap& gap : gaps)
+      for (std::size_t done = gap.place.done.load(std::memory_order_acquire); done < tiles();
+           done = gap.place.done.load(std::memory_order_acquire))
+        gap.place.done.wait(done, std::memory_order_acquire);
+  }
+
+  twin::Light light_at(std::size_t fixture, const Corner& c) const;
 
   core::FixtureState state_at(const Grid& g, const Corner& c) const {
     core::FixtureState state;
@@ -204,6 +227,11 @@ struct VisibilityCache::State {
     return state;
   }
 };
+
+twin::Light VisibilityCache::State::light_at(std::size_t fixture, const Corner& c) const {
+  return twin::light(studio.fixtures[fixture], state_at(grids[fixture], c),
+                     view.tracer->geometry().aim, studio.exposure.white_balance);
+}
 
 VisibilityCache::VisibilityCache(const View& view, const studio::Studio& studio,
                                  std::size_t budget_bytes, GridSpacing spacing)
@@ -223,14 +251,14 @@ std::unique_ptr<const Visible> VisibilityCache::at(std::size_t fixture,
                          state.get(Dof::distance, g.placed.distance)});
   std::vector<PlacePointer> places;
   std::vector<float> weights;
+  std::vector<State::Gap> gaps;
   for (const Corner& corner : around) {
     places.push_back(state_->find(fixture, corner));
     weights.push_back(static_cast<float>(corner.weight));
-    std::call_once(places.back()->filled, [&] {
-      state_->fill(fixture, state_->state_at(g, corner), g.moves ? kCached : kExact,
-                   *places.back());
-    });
+    if (places.back()->done.load(std::memory_order_acquire) < state_->tiles())
+      gaps.push_back({*places.back(), state_->light_at(fixture, corner)});
   }
+  if (!gaps.empty()) state_->fill(gaps, state_->soft(fixture), g.moves ? kCached : kExact);
   return std::make_unique<Blend>(std::move(places), std::move(weights), !state_->soft(fixture));
 }
 

@@ -21,7 +21,8 @@ struct GridSpacing {
 };
 
 /// Thread-safe. A value depends only on the lamp's place and colourless optics, never on what is
-/// already cached nor on who asked first: places are filled on first use, each by one thread, and
+/// already cached nor on who asked first: places are filled on first use, tile by tile, by all who
+/// need them and by idle threads of their arena, and
 /// dropped oldest-used first when over the budget; filled again they come out the same.
 class VisibilityCache {
  public:

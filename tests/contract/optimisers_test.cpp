@@ -212,6 +212,26 @@ INSTANTIATE_TEST_SUITE_P(Def, EveryOptimiser,
                          testing::ValuesIn(optimisers().begin(), optimisers().end()),
                          [](const auto& entry) { return std::string(entry.param.name); });
 
+/// Tells the difference between a known gradient and one taken by differences.
+TEST(Optimisers, LbfgsUsesTheGradientItIsGiven) {
+  Task task = task_of(rosenbrock, 3, -2, 2, 400);
+  std::atomic<int> asked{0};
+  task.gradient = [&](std::span<const double> x, std::span<double> gradient) {
+    ++asked;
+    std::fill(gradient.begin(), gradient.end(), 0.0);
+    for (std::size_t i = 0; i + 1 < x.size(); ++i) {
+      const double off = x[i + 1] - x[i] * x[i];
+      gradient[i] += -400 * x[i] * off - 2 * (1 - x[i]);
+      gradient[i + 1] += 200 * off;
+    }
+    return rosenbrock(x);
+  };
+  const Outcome outcome = make_optimiser("lbfgs")->minimise(task);
+  EXPECT_GT(asked, 100);
+  EXPECT_LT(outcome.value, 1e-8);
+  EXPECT_LE(outcome.trials, 400u);
+}
+
 TEST(Optimisers, ListAndFolderAgree) {
   std::set<std::string> files, listed;
   for (const auto& entry :

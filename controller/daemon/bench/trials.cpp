@@ -78,12 +78,11 @@ class Trial {
   void fetch(std::size_t k, const core::FixtureState& state) {
     layers_.luminance(lights_[k], state, accuracy_, planes_[k]);
   }
-  double run(const core::FixtureState& moved) {
-    fetch(0, moved);
-    return rest(moved);
+  /// The layer and what is seen of the lamp, for the shadow weights.
+  void move(const core::FixtureState& state) {
+    layers_.luminance_and_visibility(lights_[0], state, accuracy_, planes_[0], lit_);
   }
-  double rest(const core::FixtureState& moved) {
-    layers_.visibility(lights_[0], moved, accuracy_, lit_);
+  double rest() {
     render::relit(columns_, levels_, ambient_, picture_);
     const auto now = measure::components_of_luminance(picture_, map_, &lit_);
     return measure::ideal_cost(now, {});
@@ -118,14 +117,14 @@ core::Result<Timed> time_trials(const Plan& plan, const studio::Studio& studio,
 
   Timed out;
   Trial fast(layers, lights, rig, design::Accuracy::cached);
-  for (const auto& state : states) fast.run(state);  // fills the visibility cache
+  for (const auto& state : states) fast.move(state);  // fills the visibility cache
   std::vector<double> layer, trial;
   for (int round = 0; round < (plan.quick ? 2 : 10); ++round)
     for (const auto& state : states) {
       const Stopwatch watch(world.clock);
-      fast.fetch(0, state);
+      fast.move(state);
       layer.push_back(watch.seconds() * 1e6);
-      fast.rest(state);
+      fast.rest();
       trial.push_back(watch.seconds() * 1e6);
     }
   out.layer_us = median(layer);
@@ -139,10 +138,10 @@ core::Result<Timed> time_trials(const Plan& plan, const studio::Studio& studio,
   Trial exact((*bare)->at(plan.size), lights, rig, design::Accuracy::exact);
   for (std::size_t i = 0; i < std::min<std::size_t>(states.size(), plan.quick ? 1 : 4); ++i) {
     const Stopwatch watch(world.clock);
-    exact.fetch(0, states[i]);
+    exact.move(states[i]);
     traced.push_back(watch.seconds() * 1e6);
     for (std::size_t k = 1; k < lights.size(); ++k) exact.fetch(k, rig.states[lights[k]]);
-    exact.rest(states[i]);
+    exact.rest();
     reference.push_back(watch.seconds() * 1e6);
   }
   out.traced_layer_us = median(traced);

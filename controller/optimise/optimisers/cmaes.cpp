@@ -25,12 +25,13 @@ double mirrored(double x) {
 /// One descent of the strategy; names and constants as in Hansen's tutorial.
 class Strategy {
  public:
-  Strategy(Vector mean, std::size_t lambda)
+  Strategy(Vector mean, std::size_t lambda, double sigma)
       : n_(mean.size()),
         lambda_(lambda),
         mu_(lambda / 2),
         mean_(std::move(mean)),
-        weights_(static_cast<Eigen::Index>(mu_)) {
+        weights_(static_cast<Eigen::Index>(mu_)),
+        sigma_(sigma) {
     for (Eigen::Index i = 0; i < weights_.size(); ++i)
       weights_[i] =
           std::log(static_cast<double>(lambda_) / 2 + 0.5) - std::log(static_cast<double>(i) + 1);
@@ -101,11 +102,53 @@ class Strategy {
 
   Eigen::Index n_;
   std::size_t lambda_, mu_;
-  Vector mean_, weights_, path_sigma_, path_c_, scales_;
+  Vector mean_, weights_;
+  double sigma_;
+  Vector path_sigma_, path_c_, scales_;
   Matrix covariance_, axes_;
   double mu_eff_ = 1, c_sigma_ = 0, d_sigma_ = 1, c_c_ = 0, c_1_ = 0, c_mu_ = 0, length_ = 1;
-  double sigma_ = kFirstSigma;
   int generation_ = 0;
+};
+
+/// One of BIPOP's restarts: how many members, how wide a first step, at most how many trials.
+struct Restart {
+  std::size_t lambda;
+  double sigma;
+  std::uint64_t trials;
+};
+
+/// Hansen 2009: whichever regime has used less goes next. Large populations double each time; small
+/// ones draw a size between the first and half the last large one, and a step of 1 to 1/100 of the
+/// first, with half the trials of the last large run.
+class Bipop {
+ public:
+  explicit Bipop(std::size_t dimension)
+      : first_(
+            static_cast<std::size_t>(4 + std::floor(3 * std::log(static_cast<double>(dimension))))),
+        large_(first_) {}
+
+  Restart next(core::Random& random) {
+    small_turn_ = runs_ > 1 && used_[0] < used_[1];
+    if (!small_turn_) {
+      if (runs_ > 0) large_ *= 2;
+      return {large_, kFirstSigma, std::numeric_limits<std::uint64_t>::max()};
+    }
+    const double u = random.uniform();
+    const double most = 0.5 * static_cast<double>(large_) / static_cast<double>(first_);
+    const double size = static_cast<double>(first_) * std::pow(std::max(1.0, most), u * u);
+    const double sigma = kFirstSigma * std::pow(10, -2 * random.uniform());
+    return {static_cast<std::size_t>(size), sigma, std::max<std::uint64_t>(1, last_large_ / 2)};
+  }
+  void used(std::uint64_t trials) {
+    if (runs_++ > 0) used_[small_turn_ ? 0 : 1] += trials;
+    if (!small_turn_) last_large_ = trials;
+  }
+
+ private:
+  std::size_t first_, large_;
+  std::uint64_t used_[2] = {0, 0}, last_large_ = 0;
+  int runs_ = 0;
+  bool small_turn_ = false;
 };
 
 class CmaEs final : public Optimiser {
@@ -114,20 +157,14 @@ class CmaEs final : public Optimiser {
     const Problem problem(task);
     Ledger ledger(task);
     Record record(problem);
-    if (problem.dimension() == 0) {
-      evaluate_all(problem, ledger, record, std::vector<Point>{{}});
-      return record.finish();
-    }
-    std::vector<Point> starts;
-    for (const Point& start : task.starts) starts.push_back(problem.unit_of(start));
-    evaluate_all(problem, ledger, record, starts);
-    const auto n = static_cast<double>(problem.dimension());
-    auto lambda = static_cast<std::size_t>(4 + std::floor(3 * std::log(n)));
+    if (problem.dimension() == 0) return only_point(problem, ledger, record);
+    Point from = best_start(problem, ledger, record);
     core::Random random(task.seed, 4);
-    Point from = std::isfinite(record.value()) ? record.best() : Point(problem.dimension(), 0.5);
+    Bipop restarts(problem.dimension());
     while (record.left() > 0 && !record.stopped()) {
-      descend(problem, ledger, record, std::move(from), lambda, random);
-      lambda *= 2;
+      const std::uint64_t before = record.trials();
+      descend(problem, ledger, record, std::move(from), restarts.next(random), random);
+      restarts.used(record.trials() - before);
       from.assign(problem.dimension(), 0);
       for (double& x : from) x = random.uniform();
     }
@@ -137,14 +174,17 @@ class CmaEs final : public Optimiser {
  private:
   /// Ends where the distribution has shrunk to a point or the values no longer differ.
   static void descend(const Problem& problem, Ledger& ledger, Record& record, Point from,
-                      std::size_t lambda, core::Random& random) {
+                      const Restart& restart, core::Random& random) {
+    const std::size_t lambda = restart.lambda;
     Strategy strategy(Eigen::Map<const Vector>(from.data(), static_cast<Eigen::Index>(from.size())),
-                      lambda);
+                      lambda, restart.sigma);
+    const std::uint64_t before = record.trials();
     double best = std::numeric_limits<double>::infinity();
     Point at;
     int still = 0;
     const int patience = 20 + static_cast<int>(30 * problem.dimension() / lambda);
-    while (record.left() > 0 && !record.stopped() && !strategy.converged() && still < patience) {
+    while (record.left() > 0 && !record.stopped() && !strategy.converged() && still < patience &&
+           record.trials() - before < restart.trials) {
       const std::vector<Point> points = strategy.sample(random);
       const std::vector<double> values = evaluate_all(problem, ledger, record, points);
       const auto least = std::min_element(values.begin(), values.end());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// CMA-ES (Hansen, "The CMA evolution strategy: a tutorial", 2016) with restarts whose population
-// doubles (IPOP). Candidates outside the box are mirrored into it.
+// CMA-ES (Hansen, "The CMA evolution strategy: a tutorial", 2016) with restarts in two regimes,
+// large populations that double and small ones of random size (BIPOP, Hansen 2009). Candidates
+// outside the box are mirrored into it.
 #pragma once
 
 #include <memory>

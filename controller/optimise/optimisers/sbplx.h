@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Multi-start SBPLX (Rowan's subspace-searching simplex, from NLopt), the default: a fifth of the
-// budget samples the box evenly; the best samples that lie apart are searched locally; the best
-// ends are refined with what is left; then another round, until the budget is used.
+// Multi-start SBPLX (Rowan's subspace-searching simplex, from NLopt), the default; see
+// multi_start.h.
 #pragma once
 
 #include <memory>

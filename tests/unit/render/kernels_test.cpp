@@ -115,6 +115,144 @@ TEST_P(Kernels, EqualTheFormulasOnEveryInstructionSet) {
   }
 }
 
+/// A wall at y = 2 photographed in rows, and a ball's worth of normals before it, softly glossy.
+core::GBuffer wall_and_ball() {
+  core::Random random(11);
+  core::GBuffer b;
+  b.size = {64, 32};
+  const auto push = [](std::vector<float>& x, std::vector<float>& y, std::vector<float>& z,
+                       Vec3 v) {
+    x.push_back(static_cast<float>(v.x));
+    y.push_back(static_cast<float>(v.y));
+    z.push_back(static_cast<float>(v.z));
+  };
+  for (std::size_t i = 0; i < b.size.pixels(); ++i) {
+    const int x = static_cast<int>(i % 64), y = static_cast<int>(i / 64);
+    const bool ball = x >= 24 && x < 40;
+    const Vec3 normal = ball ? direction(random) : Vec3{0, -1, 0};
+    const Vec3 at = ball ? 0.15 * normal : Vec3{0.01 * (x - 32), 2, 0.01 * (16 - y)};
+    b.pixel.push_back(static_cast<std::uint32_t>(i));
+    push(b.position_x, b.position_y, b.position_z, at);
+    push(b.normal_x, b.normal_y, b.normal_z, normal);
+    push(b.face_x, b.face_y, b.face_z, normal);
+    push(b.viewer_x, b.viewer_y, b.viewer_z, unit(Vec3{0, -2.6, 0.2} - at));
+    push(b.diffuse_r, b.diffuse_g, b.diffuse_b, {0.4, 0.4, 0.4});
+    b.specular.push_back(ball ? 0.2f : 0.0f);
+    b.shininess.push_back(static_cast<float>(random.uniform(8, 40)));
+    b.depth.push_back(1);
+    b.object.push_back(ball ? 2 : 1);
+  }
+  return b;
+}
+
+TEST(Samples, KnowStraightLinesOfWallsFromTheSubject) {
+  const core::GBuffer buffer = wall_and_ball();
+  const Samples samples(buffer);
+  // Of each row's four groups the second and third hold the ball.
+  for (std::size_t tile = 0; tile < samples.tiles(); ++tile) {
+    const Samples::Lines lines = samples.lines(tile);
+    EXPECT_EQ(lines.groups, 0x9999999999999999u);
+    EXPECT_EQ(lines.count, 32u);
+    EXPECT_NEAR(lines.longest, 0.15, 1e-4);
+  }
+}
+
+struct Quick {
+  const core::GBuffer& buffer;
+  const Samples& samples;
+  twin::Light light;
+};
+
+/// Against a dense sum over the face, of what the lamp gives head on.
+void compare_quick(void* data) {
+  const auto& context = *static_cast<const Quick*>(data);
+  const core::GBuffer& b = context.buffer;
+  const twin::LightModel& model = twin::light_model(context.light.kind);
+  alignas(64) std::array<float, kTile> irradiance, glossy;
+  double squares = 0, count = 0;
+  for (std::size_t tile = 0; tile < context.samples.tiles(); ++tile) {
+    ASSERT_TRUE(kernels::shade_face_quickly(context.samples, context.light, tile, nullptr,
+                                            irradiance.data(), glossy.data()));
+    for (std::size_t k = 0; k < kTile; k += 3) {
+      const std::size_t i = tile * kTile + k;
+      const Vec3 at{b.position_x[i], b.position_y[i], b.position_z[i]};
+      const Vec3 n{b.normal_x[i], b.normal_y[i], b.normal_z[i]};
+      const Vec3 v{b.viewer_x[i], b.viewer_y[i], b.viewer_z[i]};
+      const double d = distance(at, context.light.position);
+      const double head_on = 800 * twin::faded(context.light.attenuation, d);
+      EXPECT_NEAR(irradiance[k] / head_on, model.irradiance(context.light, at, n) / head_on, 4e-3)
+          << model.name << " sample " << i;
+      double shine = 0;
+      constexpr int kAcross = 12;
+      for (int s = 0; s < kAcross * kAcross; ++s) {
+        const Vec3 to = model.target(context.light, at, (s % kAcross + 0.5) / kAcross,
+                                     (s / kAcross + 0.5) / kAcross) -
+                        at;
+        const double far = length(to);
+        shine += std::max(0.0, -dot(context.light.direction, to) / far) *
+                 twin::faded(context.light.attenuation, far) *
+                 twin::highlight(n, to / far, v, b.shininess[i]);
+      }
+      const double off =
+          (glossy[k] - b.specular[i] * 800 * shine / (kAcross * kAcross)) / (0.2 * head_on);
+      squares += off * off, ++count;
+      EXPECT_NEAR(off, 0, 0.1) << model.name << " sample " << i;
+    }
+  }
+  EXPECT_LT(std::sqrt(squares / count), 0.01) << model.name;
+}
+
+TEST(QuickKernels, StayNearTheTruthOnEveryInstructionSet) {
+  const core::GBuffer buffer = wall_and_ball();
+  const Samples samples(buffer);
+  for (const auto kind : {studio::Optic::Kind::rectangle, studio::Optic::Kind::disk})
+    for (const auto law : {studio::Optic::Attenuation::inverse_square,
+                           studio::Optic::Attenuation::linear, studio::Optic::Attenuation::none})
+      for (const Vec3 at : {Vec3{-0.9, -1.0, 0.8}, Vec3{0.4, -1.9, 0.2}, Vec3{1.4, 0.6, 0.9}}) {
+        Quick context{buffer, samples, lamp(kind, law)};
+        twin::Light& light = context.light;
+        light.position = at;
+        light.direction = unit(-1.0 * at);
+        light.right = unit(cross(light.direction, Vec3{0, 0, 1}));
+        light.up = cross(light.right, light.direction);
+        light.width = 0.6, light.height = 0.9, light.radius = 0.4;
+        kernels::for_each_target(compare_quick, &context);
+      }
+}
+
+TEST(QuickKernels, LeaveNearAndSharpToTheClosedForms) {
+  core::GBuffer buffer = wall_and_ball();
+  alignas(64) std::array<float, kTile> irradiance, glossy;
+  twin::Light light = lamp(studio::Optic::Kind::rectangle, {});
+  light.position = {0, -0.9, 0};
+  light.direction = {0, 1, 0};
+  const auto quick = [&] {
+    return kernels::shade_face_quickly(Samples(buffer), light, 0, nullptr, irradiance.data(),
+                                       glossy.data());
+  };
+  EXPECT_FALSE(quick());
+  light.position = {0, -1.9, 0};
+  EXPECT_TRUE(quick());
+  std::fill(buffer.shininess.begin(), buffer.shininess.end(), 90.0f);
+  EXPECT_FALSE(quick());
+}
+
+TEST(QuickKernels, MayLeaveOutWhatNothingIsSeenOf) {
+  const core::GBuffer buffer = wall_and_ball();
+  const Samples samples(buffer);
+  alignas(64) std::array<float, kTile> all, some, glossy, visible;
+  for (std::size_t i = 0; i < kTile; ++i) visible[i] = i % 64 < 32 ? 0.0f : 0.5f;
+  twin::Light light = lamp(studio::Optic::Kind::rectangle, {});
+  light.position = {0, -1.9, 0};
+  light.direction = {0, 1, 0};
+  kernels::shade(samples, light, 0, all.data(), glossy.data(), Shading::quick);
+  kernels::shade(samples, light, 0, some.data(), glossy.data(), Shading::quick, visible.data());
+  for (std::size_t i = 0; i < kTile; ++i)
+    if (visible[i] > 0) {
+      EXPECT_EQ(some[i], all[i]) << i;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(EveryLight, Kernels,
                          testing::ValuesIn(twin::light_models().begin(),
                                            twin::light_models().end()),
