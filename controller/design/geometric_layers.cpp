@@ -209,13 +209,13 @@ class WithSkin : public Layers {
   void luminance(std::size_t fixture, const core::FixtureState& state, Accuracy accuracy,
                  core::Plane& out) const override {
     bare_.with_visible(fixture, state, accuracy, [&](const twin::Light& light, const auto& seen) {
-      render::luminance(view_, light, bare_.twin().gain, &seen, out);
+      render::luminance(view_, light, bare_.twin().gain, &seen, out, bare_.shading(accuracy));
     });
   }
   void colour(std::size_t fixture, const core::FixtureState& state, Accuracy accuracy,
               core::Layer& out) const override {
     bare_.with_visible(fixture, state, accuracy, [&](const twin::Light& light, const auto& seen) {
-      render::colour(view_, light, bare_.twin().gain, &seen, out);
+      render::colour(view_, light, bare_.twin().gain, &seen, out, bare_.shading(accuracy));
     });
   }
   void visibility(std::size_t fixture, const core::FixtureState& state, Accuracy accuracy,
