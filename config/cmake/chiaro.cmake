@@ -75,11 +75,14 @@ function(chiaro_program name)
   target_link_libraries(${name} PRIVATE chiaro_options ${ARG_USES} ${ARG_LIBS})
 endfunction()
 
-# chiaro_tests(name FOLDER dir USES stages… LIBS … LABELS …): every *_test.cpp below the folder in
+# chiaro_tests(name FOLDER dir [EXCLUDE patterns…] USES stages… LIBS … LABELS …): every *_test.cpp below the folder in
 # one GoogleTest program, each test known to ctest.
 function(chiaro_tests name)
-  cmake_parse_arguments(ARG "" "FOLDER;TIMEOUT" "USES;LIBS;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "" "FOLDER;TIMEOUT" "USES;LIBS;LABELS;EXCLUDE" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${ARG_FOLDER}/*_test.cpp)
+  foreach(pattern ${ARG_EXCLUDE})
+    list(FILTER sources EXCLUDE REGEX ${pattern})
+  endforeach()
   if(NOT sources)
     return()
   endif()

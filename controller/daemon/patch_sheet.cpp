@@ -63,12 +63,8 @@ std::string table(const std::vector<Row>& rows) {
 }
 
 std::string output_line(const studio::Output& output) {
-  std::string line = "universe " + std::to_string(output.universe) + ": ";
-  if (const auto* sacn = std::get_if<studio::SacnOutput>(&output.driver))
-    return line + "sACN on " + sacn->interface + " at " +
-           std::to_string(std::lround(sacn->rate_hz)) + " Hz, priority " +
-           std::to_string(sacn->priority) + (sacn->unicast.empty() ? "" : ", to " + sacn->unicast);
-  return line + "mock (no wire)";
+  return "universe " + std::to_string(output.universe) + ": " +
+         studio::output_in_words(output.driver);
 }
 
 /// A degree that went through radians comes back as 44.99999999999999: say 45.

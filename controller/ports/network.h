@@ -3,6 +3,7 @@
 // network on one fake clock.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -44,8 +45,15 @@ class Network {
     std::string interface;         ///< name such as "lo" or "eth0"; empty = the system's choice
     std::uint16_t local_port = 0;  ///< 0 = any free port (a sender)
     bool share_port = false;       ///< several receivers on one port (multicast)
+    bool broadcast = false;        ///< may send to the broadcast address
   };
   virtual core::Result<std::unique_ptr<DatagramSocket>> open_datagram(const Options& options) = 0;
+  /// Who we are on that interface; "" = the one the system would choose. Nothing when it is down.
+  struct Address {
+    std::string own, broadcast;  ///< dotted IPv4
+    std::array<std::uint8_t, 6> mac{};
+  };
+  virtual std::optional<Address> address_of(const std::string& interface) = 0;
 };
 
 }  // namespace chiaro::ports

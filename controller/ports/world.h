@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "controller/ports/clock.h"
+#include "controller/ports/devices.h"
 #include "controller/ports/network.h"
 
 namespace chiaro::ports {
@@ -28,6 +29,7 @@ enum class Exit : int {
 struct World {
   Clock& clock;
   Network& network;
+  Devices& devices;
   std::istream& in;
   std::ostream& out;  ///< results; with --json one object
   std::ostream& err;  ///< people's text and progress

@@ -196,12 +196,52 @@ struct SacnOutput {
   std::string interface;
   double rate_hz = 40;
   int priority = 100;
-  std::string unicast;  ///< "" = multicast
+  std::string unicast;     ///< "" = multicast
+  std::uint16_t sync = 0;  ///< synchronisation universe; 0 = none
+  bool quiet = false;      ///< unchanged levels only every 0.8 s
 };
 struct MockOutput {
   double rate_hz = 40;
 };
-using OutputDriver = std::variant<SacnOutput, MockOutput>;
+struct ArtNetOutput {
+  std::string interface;
+  double rate_hz = 40;
+  int port_address = -1;  ///< -1 = universe - 1
+  std::string unicast;    ///< "" = to the nodes that ask for it
+  bool broadcast = false, sync = false, quiet = false;
+};
+/// One plugged-in device; empty fields match any. At least one is given.
+struct DeviceName {
+  std::string node;                       ///< "/dev/ttyUSB0"
+  std::uint16_t vendor = 0, product = 0;  ///< USB ids
+  std::string serial, usb_path;
+};
+/// Enttec DMX USB Pro and what speaks its protocol.
+struct UsbProOutput {
+  DeviceName device;
+  double rate_hz = 40;
+  int port = 1, break_us = 176, mab_us = 16;
+};
+/// An FTDI chip alone: the computer times every frame.
+struct OpenDmxOutput {
+  DeviceName device;
+  double rate_hz = 30;
+  int slots = 512, break_us = 176, mab_us = 16;
+};
+struct UdmxOutput {
+  DeviceName device;
+  double rate_hz = 30;
+  int slots = 512;
+};
+struct OlaOutput {
+  double rate_hz = 40;
+  std::uint16_t universe = 0;  ///< olad's own number; 0 = the same
+};
+using OutputDriver = std::variant<SacnOutput, MockOutput, ArtNetOutput, UsbProOutput, OpenDmxOutput,
+                                  UdmxOutput, OlaOutput>;
+/// "sACN on eth0 at 40 Hz, priority 100".
+std::string output_in_words(const OutputDriver& driver);
+double rate_of(const OutputDriver& driver);
 struct Output {
   std::uint16_t universe = 1;
   OutputDriver driver;

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <unistd.h>
 
+#include "drivers/common/system_devices.h"
 #include "drivers/common/system_network.h"
 
 namespace chiaro::drivers {
@@ -72,8 +73,10 @@ std::filesystem::path runtime_folder() {
 ports::World& real_world(const char* program_path) {
   static SystemClock clock;
   static drivers::SystemNetwork network;
+  static drivers::SystemDevices devices;
   static ports::World world{clock,
                             network,
+                            devices,
                             std::cin,
                             std::cout,
                             std::cerr,

@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace chiaro::drivers::sacn {
 
@@ -32,6 +33,12 @@ inline constexpr std::uint8_t kPreview = 0x80, kTerminated = 0x40, kForceSync = 
 inline constexpr std::array<std::uint8_t, 12> kIdentifier{'A', 'S', 'C', '-', 'E', '1',
                                                           '.', '1', '7', 0,   0,   0};
 
+/// What the start code of a data packet means to lamps: levels, or a priority for each address.
+inline constexpr std::uint8_t kLevels = 0x00, kAddressPriorities = 0xdd;
+inline constexpr std::uint16_t kDiscoveryUniverse = 64214;
+/// A universe discovery page lists at most so many universes (E1.31 8.5).
+inline constexpr std::size_t kPageUniverses = 512, kSyncSize = 49, kPageHead = 120;
+
 using Cid = std::array<std::uint8_t, 16>;
 using Packet = std::array<std::uint8_t, kPacketSize>;
 
@@ -49,6 +56,7 @@ struct Stream {
   std::string_view source_name;  ///< UTF-8; cut to 63 bytes so that a NUL always follows
   std::uint8_t priority = kDefaultPriority;
   std::uint16_t universe = 1;
+  std::uint16_t sync_universe = 0;  ///< 0 = not synchronised
 };
 
 /// A whole packet of 512 zero levels, sequence 0, no option set. Each length counts from its own
@@ -66,6 +74,7 @@ constexpr Packet data_packet(const Stream& stream) {
   for (std::size_t i = 0; i < name; ++i)
     p[at::source_name + i] = static_cast<std::uint8_t>(stream.source_name[i]);
   p[at::priority] = stream.priority;
+  put16(p, at::sync_universe, stream.sync_universe);
   put16(p, at::universe, stream.universe);
   put16(p, at::dmp_length, 0x7000 | (kPacketSize - at::dmp_length));
   p[at::dmp_vector] = 0x02;
@@ -82,6 +91,39 @@ constexpr void set_frame(Packet& packet, std::uint8_t sequence, std::uint8_t opt
   packet[at::options] = options;
   std::copy(levels.begin(), levels.end(), packet.begin() + at::levels);
 }
+
+/// "Show now what you have heard for this synchronisation universe" (E1.31 table 4-2).
+using SyncPacket = std::array<std::uint8_t, kSyncSize>;
+namespace sync_at {
+inline constexpr std::size_t sequence = 44, universe = 45;
+}
+SyncPacket sync_packet(const Cid& cid, std::uint16_t sync_universe);
+
+/// One page of universe discovery (E1.31 table 4-3). Precondition: at most kPageUniverses, sorted.
+std::vector<std::uint8_t> discovery_page(const Stream& stream, std::uint8_t page,
+                                         std::uint8_t last_page,
+                                         std::span<const std::uint16_t> universes);
+/// All pages of a source, in order; one empty page for a source without universes.
+std::vector<std::vector<std::uint8_t>> discovery_pages(const Stream& stream,
+                                                       std::span<const std::uint16_t> universes);
+
+/// A synchronisation packet as received.
+struct HeardSync {
+  Cid cid{};
+  std::uint8_t sequence = 0;
+  std::uint16_t universe = 0;
+};
+/// Nothing when the datagram is something else. Real-time.
+std::optional<HeardSync> parse_sync(std::span<const std::uint8_t> datagram);
+
+/// A universe discovery page as received.
+struct HeardPage {
+  Cid cid{};
+  std::string source_name;
+  std::uint8_t page = 0, last_page = 0;
+  std::vector<std::uint16_t> universes;
+};
+std::optional<HeardPage> parse_discovery(std::span<const std::uint8_t> datagram);
 
 /// A data packet as received; views into the datagram.
 struct DataPacket {

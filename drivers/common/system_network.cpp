@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drivers/common/system_network.h"
 
+#include <algorithm>
 #include <arpa/inet.h>
 #include <cerrno>
 #include <cstring>
+#include <ifaddrs.h>
 #include <net/if.h>
 #include <netinet/in.h>
+#include <netpacket/packet.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -89,6 +92,7 @@ core::Result<std::unique_ptr<ports::DatagramSocket>> SystemNetwork::open_datagra
                          "are too many files open?"};
   auto socket = std::make_unique<SystemDatagram>(descriptor, index, options.interface);
   const int on = 1;
+  if (options.broadcast) ::setsockopt(descriptor, SOL_SOCKET, SO_BROADCAST, &on, sizeof on);
   if (options.share_port) ::setsockopt(descriptor, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
   if (index != 0) {
     // Multicast leaves by the default route unless told otherwise: the commonest "sACN does not
@@ -108,6 +112,39 @@ core::Result<std::unique_ptr<ports::DatagramSocket>> SystemNetwork::open_datagra
         errno == EADDRINUSE ? "another program has it; `ss -lunp` shows which"
                             : "choose a port above 1024"};
   return std::unique_ptr<ports::DatagramSocket>(std::move(socket));
+}
+
+std::optional<ports::Network::Address> SystemNetwork::address_of(const std::string& interface) {
+  ifaddrs* all = nullptr;
+  if (::getifaddrs(&all) != 0) return std::nullopt;
+  std::optional<Address> found;
+  std::string name;
+  const auto text = [](const sockaddr* address) {
+    char dotted[INET_ADDRSTRLEN] = {};
+    inet_ntop(AF_INET, &reinterpret_cast<const sockaddr_in*>(address)->sin_addr, dotted,
+              sizeof dotted);
+    return std::string(dotted);
+  };
+  for (const ifaddrs* one = all; one != nullptr && !found; one = one->ifa_next) {
+    if (one->ifa_addr == nullptr || one->ifa_addr->sa_family != AF_INET) continue;
+    const bool loopback = (one->ifa_flags & IFF_LOOPBACK) != 0;
+    if ((one->ifa_flags & IFF_UP) == 0) continue;
+    if (interface.empty() ? loopback : interface != one->ifa_name) continue;
+    found.emplace();
+    found->own = text(one->ifa_addr);
+    // The loopback has no broadcast address of its own, but answers to that of its network.
+    found->broadcast = loopback ? "127.255.255.255"
+                       : (one->ifa_flags & IFF_BROADCAST) != 0 && one->ifa_broadaddr != nullptr
+                           ? text(one->ifa_broadaddr)
+                           : "255.255.255.255";
+    name = one->ifa_name;
+  }
+  for (const ifaddrs* one = all; one != nullptr && found; one = one->ifa_next)
+    if (one->ifa_addr != nullptr && one->ifa_addr->sa_family == AF_PACKET && name == one->ifa_name)
+      std::copy_n(reinterpret_cast<const sockaddr_ll*>(one->ifa_addr)->sll_addr, 6,
+                  found->mac.begin());
+  ::freeifaddrs(all);
+  return found;
 }
 
 }  // namespace chiaro::drivers

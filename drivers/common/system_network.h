@@ -10,6 +10,7 @@ class SystemNetwork final : public ports::Network {
  public:
   core::Result<std::unique_ptr<ports::DatagramSocket>> open_datagram(
       const Options& options) override;
+  std::optional<Address> address_of(const std::string& interface) override;
 };
 
 }  // namespace chiaro::drivers

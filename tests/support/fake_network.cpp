@@ -124,6 +124,13 @@ core::Result<std::unique_ptr<ports::DatagramSocket>> FakeNetwork::open_datagram(
   return std::unique_ptr<ports::DatagramSocket>(std::move(socket));
 }
 
+std::optional<ports::Network::Address> FakeNetwork::address_of(const std::string& interface) {
+  const std::scoped_lock lock(wire_->mutex);
+  const auto& known = wire_->interfaces;
+  if (std::find(known.begin(), known.end(), interface) == known.end()) return std::nullopt;
+  return Address{"127.0.0.1", "127.255.255.255", {2, 0, 0, 0, 0, 1}};
+}
+
 void FakeNetwork::unplug(bool unplugged) {
   const std::scoped_lock lock(wire_->mutex);
   wire_->unplugged = unplugged;

@@ -21,6 +21,8 @@ class FakeNetwork final : public ports::Network {
 
   core::Result<std::unique_ptr<ports::DatagramSocket>> open_datagram(
       const Options& options) override;
+  /// 127.0.0.1 on every interface there is.
+  std::optional<Address> address_of(const std::string& interface) override;
 
   /// While unplugged every send fails.
   void unplug(bool unplugged);

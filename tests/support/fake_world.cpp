@@ -17,9 +17,12 @@ TemporaryFolder::~TemporaryFolder() {
   std::filesystem::remove_all(path_, ignored);
 }
 
+FakeWorld::~FakeWorld() = default;
+
 FakeWorld::FakeWorld(FakeClock& clock, ports::Network& network, const std::filesystem::path& folder)
     : world{clock,
             network,
+            devices,
             in,
             out,
             err,

@@ -10,6 +10,7 @@
 
 #include "controller/ports/world.h"
 #include "tests/support/fake_clock.h"
+#include "tests/support/fake_devices.h"
 #include "tests/support/fake_network.h"
 
 namespace chiaro::support {
@@ -31,7 +32,9 @@ class TemporaryFolder {
 struct FakeWorld {
   /// Programs that talk through boxes and sockets share `folder`.
   FakeWorld(FakeClock& clock, ports::Network& network, const std::filesystem::path& folder);
+  ~FakeWorld();
 
+  FakeDevices devices;
   std::istringstream in;
   std::ostringstream out, err;
   std::atomic<bool> stop{false}, reload{false};

@@ -111,7 +111,9 @@ Exit prepare_and_perform(const Arguments& arguments, ports::World& world) {
   if (!lock) return refuse(world, lock.problems(), Exit::out_of_reach);
 
   core::Problems warnings = loaded->warnings;
+  drivers::Surroundings around{world.network, world.devices, world.clock};
   Show::Options options;
+  options.around = &around;
   options.dry_run = arguments.dry_run;
   options.real_time = !arguments.no_real_time;
   options.cid = kept_cid(world.state_folder, warnings);
@@ -147,7 +149,7 @@ Exit run_output(std::span<const std::string> words, ports::World& world) {
   std::vector<std::string> reversed(words.rbegin(), words.rend());  // CLI11 wants it so
   try {
     app.parse(reversed);
-    ports::World mine{world.clock,         world.network,      world.in,
+    ports::World mine{world.clock,         world.network,      world.devices, world.in,
                       world.out,           world.err,          world.err_is_terminal,
                       world.config_folder, world.state_folder, world.runtime_folder,
                       world.stop,          world.reload};

@@ -5,6 +5,7 @@
 
 #include "controller/daemon/box_words.h"
 #include "controller/daemon/output/cue_book.h"
+#include "controller/daemon/output/port_plan.h"
 
 namespace chiaro::daemon {
 namespace {
@@ -13,31 +14,6 @@ constexpr ports::Duration kIdlePeriod = std::chrono::milliseconds(25);
 /// A report of every lamp and every source costs more than all the levels: a quarter of the frames
 /// is plenty for people and brains.
 constexpr ports::Duration kReportPeriod = std::chrono::milliseconds(100);
-
-struct PortPlan {
-  std::string driver;
-  drivers::OutputSettings settings;
-  double rate_hz;
-};
-
-PortPlan plan_of(const studio::Output& output, const Show::Options& options,
-                 const std::string& studio) {
-  PortPlan plan;
-  plan.settings.universe = output.universe;
-  plan.settings.cid = options.cid;
-  plan.settings.source_name = "Chiaro: " + studio;
-  if (const auto* sacn = std::get_if<studio::SacnOutput>(&output.driver)) {
-    plan.driver = "sacn";
-    plan.rate_hz = sacn->rate_hz;
-    plan.settings.interface = sacn->interface;
-    plan.settings.unicast = sacn->unicast;
-    plan.settings.priority = sacn->priority;
-  } else {
-    plan.driver = "mock";
-    plan.rate_hz = std::get<studio::MockOutput>(output.driver).rate_hz;
-  }
-  return plan;
-}
 
 std::ptrdiff_t find_port(const Show* before, const PortPlan& plan) {
   if (before == nullptr) return -1;
@@ -54,10 +30,11 @@ std::ptrdiff_t find_port(const Show* before, const PortPlan& plan) {
 /// The port, open if it can be without waiting for its device (else its own thread opens it); in a
 /// dry run nothing that could reach a lamp is even made.
 std::unique_ptr<ports::OutputPort> open_port(const PortPlan& plan, bool dry_run,
-                                             ports::World& world, core::Problems& warnings) {
-  auto port = drivers::make_output(plan.driver, plan.settings, world.network);
+                                             drivers::Surroundings& around,
+                                             core::Problems& warnings) {
+  auto port = drivers::make_output(plan.driver, plan.settings, around);
   if (port && dry_run && (*port)->physical())
-    port = drivers::make_output("mock", plan.settings, world.network);
+    port = drivers::make_output("mock", plan.settings, around);
   if (!port) return nullptr;
   if ((*port)->blocks()) return std::move(*port);
   if (const auto opened = (*port)->open(); !opened)
@@ -100,7 +77,7 @@ core::Result<std::unique_ptr<Show>> Show::make(const studio::Studio& studio, con
   }
   show->recall_cues(read_cues(world.state_folder, studio, warnings), held);
   for (const auto& output : studio.outputs)
-    show->add_port(output, options, world, before, warnings);
+    show->add_port(output, options, before, warnings);
   show->wanted_words_.resize(wanted_format(studio).words);
   const BoxFormat format = sent_format(studio);
   show->sent_words_.resize(format.words);
@@ -110,20 +87,22 @@ core::Result<std::unique_ptr<Show>> Show::make(const studio::Studio& studio, con
   return show;
 }
 
-void Show::add_port(const studio::Output& output, const Options& options, ports::World& world,
-                    const Show* before, core::Problems& warnings) {
-  const PortPlan plan = plan_of(output, options, studio_.name);
+void Show::add_port(const studio::Output& output, const Options& options, const Show* before,
+                    core::Problems& warnings) {
+  const PortPlan plan = plan_of(studio_, output, options.cid);
   const std::ptrdiff_t old = find_port(before, plan);
   ports_before_.push_back(old);
   rates_.push_back(plan.rate_hz);
   const auto universes = plan_.universes();
   frame_of_port_.push_back(static_cast<std::size_t>(
       std::lower_bound(universes.begin(), universes.end(), output.universe) - universes.begin()));
-  ports_.push_back(
-      old >= 0 ? nullptr
-               : std::make_unique<PortSlot>(plan.driver, plan.settings,
-                                            open_port(plan, options.dry_run, world, warnings),
-                                            plan.rate_hz, world.clock, options.real_time));
+  drivers::Surroundings& around = *options.around;
+  ports_.push_back(old >= 0
+                       ? nullptr
+                       : std::make_unique<PortSlot>(
+                             plan.driver, plan.settings,
+                             open_port(plan, options.dry_run, around, warnings), plan.rate_hz,
+                             around.clock, options.real_time));
 }
 
 void Show::recall_cues(std::unique_ptr<rig::CueList> list, const rig::Held* held) {

@@ -29,6 +29,7 @@ class Show {
     bool dry_run = false;
     bool real_time = false;  ///< threads of ports that wait for their device ask for a turn
     std::array<std::uint8_t, 16> cid{};
+    drivers::Surroundings* around = nullptr;  ///< outlives every show
   };
   /// Opens what `before` does not have open already; warnings (a port that cannot be opened now is
   /// tried again later) go to `warnings`. Fails when its box cannot be laid out.
@@ -72,8 +73,8 @@ class Show {
  private:
   Show(const studio::Studio& studio, const Options& options, ports::TimePoint now,
        const rig::Held* held);
-  void add_port(const studio::Output& output, const Options& options, ports::World& world,
-                const Show* before, core::Problems& warnings);
+  void add_port(const studio::Output& output, const Options& options, const Show* before,
+                core::Problems& warnings);
   void recall_cues(std::unique_ptr<rig::CueList> list, const rig::Held* held);
   void play(const rig::Cue* cue, ports::TimePoint now);
   void hear(ports::TimePoint now);

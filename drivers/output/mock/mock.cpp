@@ -22,8 +22,8 @@ class MockPort final : public ports::OutputPort {
 
 }  // namespace
 
-std::unique_ptr<ports::OutputPort> make(const OutputSettings&, ports::Network&);
-std::unique_ptr<ports::OutputPort> make(const OutputSettings&, ports::Network&) {
+std::unique_ptr<ports::OutputPort> make(const OutputSettings&, Surroundings&);
+std::unique_ptr<ports::OutputPort> make(const OutputSettings&, Surroundings&) {
   return std::make_unique<MockPort>();
 }
 

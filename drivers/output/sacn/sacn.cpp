@@ -1,13 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// One universe of sACN. Sending is one non-blocking datagram, so the output loop may call it.
+// One universe of sACN. Sending is one non-blocking datagram, so the output loop may call it. The
+// first universe of a source also tells the network which universes there are; the last one ends
+// each frame with a synchronisation packet where that is asked for.
+#include "drivers/common/quiet.h"
 #include "drivers/common/sacn_packet.h"
 #include "drivers/registry.h"
 
 namespace chiaro::drivers::sacn {
 namespace {
 
+/// E131_UNIVERSE_DISCOVERY_INTERVAL.
+constexpr ports::Duration kDiscoveryPeriod = std::chrono::seconds(10);
+
 core::Problem refusal(const std::string& what, const std::string& remedy) {
   return {{}, what, remedy, false};
+}
+
+Stream stream_of(const OutputSettings& settings) {
+  return {settings.cid, settings.source_name, static_cast<std::uint8_t>(settings.priority),
+          settings.universe, settings.sync};
 }
 
 class SacnPort final : public ports::OutputPort {
@@ -17,8 +28,17 @@ class SacnPort final : public ports::OutputPort {
         network_(network),
         to_{settings.unicast.empty() ? multicast_group(settings.universe) : settings.unicast,
             kPort},
-        packet_(data_packet({settings.cid, settings.source_name,
-                             static_cast<std::uint8_t>(settings.priority), settings.universe})) {}
+        sync_to_{settings.unicast.empty() ? multicast_group(settings.sync) : settings.unicast,
+                 kPort},
+        packet_(data_packet(stream_of(settings))),
+        sync_(sync_packet(settings.cid, settings.sync)),
+        quiet_(settings.quiet) {
+    const auto& all = settings_.together;
+    speaks_for_all_ = all.empty() || all.front() == settings.universe;
+    ends_the_frame_ = settings.sync != 0 && (all.empty() || all.back() == settings.universe);
+    const std::vector<std::uint16_t> alone{settings.universe};
+    if (speaks_for_all_) pages_ = discovery_pages(stream_of(settings_), all.empty() ? alone : all);
+  }
 
   core::Result<core::Done> open() override {
     const std::string here = "sACN universe " + std::to_string(settings_.universe);
@@ -40,13 +60,24 @@ class SacnPort final : public ports::OutputPort {
     return core::Done{};
   }
 
-  void send(const ports::DmxFrame& frame, ports::TimePoint) override { send(frame.levels, 0); }
+  void send(const ports::DmxFrame& frame, ports::TimePoint now) override {
+    if (!socket_) return;
+    if (quiet_.must_send(frame, now)) send(frame.levels, 0);
+    if (ends_the_frame_) {
+      ++sync_[sync_at::sequence];
+      socket_->send(sync_to_, sync_);
+    }
+    if (speaks_for_all_ && now >= next_discovery_) {
+      next_discovery_ = now + kDiscoveryPeriod;
+      for (const auto& page : pages_) socket_->send(discovery_to_, page);
+    }
+  }
 
   /// E1.31 6.2.6: three packets with Stream_Terminated, so that a lost one does not matter.
   void release(ports::TimePoint) override {
     std::array<std::uint8_t, kSlots> levels{};
     std::copy_n(packet_.begin() + at::levels, kSlots, levels.begin());
-    for (int i = 0; i < 3; ++i) send(levels, kTerminated);
+    for (int i = 0; i < 3 && socket_; ++i) send(levels, kTerminated);
     socket_.reset();
     report_.health = ports::PortHealth::closed;
   }
@@ -56,7 +87,6 @@ class SacnPort final : public ports::OutputPort {
 
  private:
   void send(std::span<const std::uint8_t, kSlots> levels, std::uint8_t options) {
-    if (!socket_) return;
     set_frame(packet_, ++sequence_, options, levels);
     if (!socket_->send(to_, packet_)) {
       ++report_.frames_failed;
@@ -70,8 +100,13 @@ class SacnPort final : public ports::OutputPort {
 
   const OutputSettings settings_;
   ports::Network& network_;
-  const ports::Endpoint to_;
+  const ports::Endpoint to_, sync_to_, discovery_to_{multicast_group(kDiscoveryUniverse), kPort};
   Packet packet_;
+  SyncPacket sync_;
+  Quiet quiet_;
+  std::vector<std::vector<std::uint8_t>> pages_;
+  bool speaks_for_all_ = false, ends_the_frame_ = false;
+  ports::TimePoint next_discovery_;
   std::uint8_t sequence_ = 0;
   std::unique_ptr<ports::DatagramSocket> socket_;
   ports::PortReport report_;
@@ -79,9 +114,9 @@ class SacnPort final : public ports::OutputPort {
 
 }  // namespace
 
-std::unique_ptr<ports::OutputPort> make(const OutputSettings&, ports::Network&);
-std::unique_ptr<ports::OutputPort> make(const OutputSettings& settings, ports::Network& network) {
-  return std::make_unique<SacnPort>(settings, network);
+std::unique_ptr<ports::OutputPort> make(const OutputSettings&, Surroundings&);
+std::unique_ptr<ports::OutputPort> make(const OutputSettings& settings, Surroundings& around) {
+  return std::make_unique<SacnPort>(settings, around.network);
 }
 
 }  // namespace chiaro::drivers::sacn

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "drivers/registry.h"
+#include "tests/support/fake_clock.h"
+#include "tests/support/fake_devices.h"
 #include "tests/support/fake_network.h"
 
 namespace chiaro::drivers {
@@ -13,7 +15,10 @@ using namespace std::chrono_literals;
 class EveryOutput : public testing::TestWithParam<OutputEntry> {
  protected:
   support::FakeNetwork network_;
-  std::unique_ptr<ports::OutputPort> port_ = GetParam().make(OutputSettings{}, network_);
+  support::FakeDevices devices_;
+  support::FakeClock clock_{support::FakeClock::Sleep::jumps};
+  Surroundings around_{network_, devices_, clock_};
+  std::unique_ptr<ports::OutputPort> port_ = GetParam().make(OutputSettings{}, around_);
   ports::DmxFrame frame_;
 };
 
@@ -60,7 +65,10 @@ INSTANTIATE_TEST_SUITE_P(, EveryOutput, testing::ValuesIn(outputs().begin(), out
 
 TEST(Outputs, NameTheNearestDriverWhenThereIsNone) {
   support::FakeNetwork network;
-  const auto port = make_output("sacnn", {}, network);
+  support::FakeDevices devices;
+  support::FakeClock clock;
+  Surroundings around{network, devices, clock};
+  const auto port = make_output("sacnn", {}, around);
   ASSERT_FALSE(port);
   EXPECT_EQ(port.problems()[0].remedy, "did you mean 'sacn'?");
 }
