@@ -13,7 +13,7 @@ namespace chiaro::ports {
 
 struct CameraFrame {
   core::EncodedPicture picture;
-  TimePoint taken;  ///< when the driver received it, monotonic
+  TimePoint taken;  ///< by the camera where it says so, else when it was received; monotonic
 };
 
 /// One camera; thread-bound (its own thread). `grab` may block up to its timeout.
@@ -21,6 +21,9 @@ class Camera {
  public:
   virtual ~Camera() = default;
   virtual core::Result<CameraFrame> grab(Duration timeout) = 0;
+  /// What the camera still does by itself although it was told not to, as warnings; known after the
+  /// first grab.
+  virtual core::Problems unlocked() const { return {}; }
 };
 
 }  // namespace chiaro::ports

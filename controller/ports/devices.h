@@ -24,7 +24,7 @@ struct DeviceMatch {
   std::uint16_t vendor = 0, product = 0;  ///< USB ids; 0 = any
   std::string serial{};                   ///< as the device says it
   std::string usb_path{};  ///< "1-1.4": the socket it sits in, for clones without serial
-  std::string manufacturer{}, name{};     ///< USB strings, compared whole
+  std::string manufacturer{}, name{};  ///< USB strings, compared whole
   friend bool operator==(const DeviceMatch&, const DeviceMatch&) = default;
 };
 /// "0403:6001 serial AL01" or the node: for messages.

@@ -24,8 +24,8 @@ Studio read_sections(const Tree& tree, Context& context, profiles::Shelf& shelf)
   sections::read_exposure(top, context, studio);
   sections::read_ambient(top, context, studio);
   sections::read_safety(top, context, studio);
-  sections::read_outputs(top, context, studio);
   sections::read_buses(top, context, studio);
+  sections::read_outputs(top, context, studio);
   sections::read_fixtures(top, context, shelf, studio);
   sections::read_circuits(top, context, studio);
   sections::read_keep_out(top, context, studio);

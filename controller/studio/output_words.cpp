@@ -34,7 +34,8 @@ struct InWords {
   std::string operator()(const MockOutput&) const { return "mock (no wire)"; }
   std::string operator()(const ArtNetOutput& artnet) const {
     return "Art-Net on " + artnet.interface + at_rate(artnet.rate_hz) +
-           (artnet.port_address < 0 ? "" : ", port-address " + std::to_string(artnet.port_address)) +
+           (artnet.port_address < 0 ? ""
+                                    : ", port-address " + std::to_string(artnet.port_address)) +
            (artnet.broadcast         ? ", to everybody"
             : artnet.unicast.empty() ? ", to the nodes that ask"
                                      : ", to " + artnet.unicast) +
@@ -49,6 +50,10 @@ struct InWords {
   }
   std::string operator()(const UdmxOutput& udmx) const {
     return "uDMX" + in_words(udmx.device) + at_rate(udmx.rate_hz);
+  }
+  std::string operator()(const ModbusOutput& modbus) const {
+    return "Modbus unit " + std::to_string(modbus.unit) + " on bus '" + modbus.bus + "', " +
+           modbus.map.maker + " " + modbus.map.device;
   }
   std::string operator()(const OlaOutput& ola) const {
     return "OLA" + (ola.universe == 0 ? "" : " universe " + std::to_string(ola.universe)) +

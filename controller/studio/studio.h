@@ -18,6 +18,7 @@
 #include "controller/core/result.h"
 #include "controller/core/units.h"
 #include "controller/studio/profile.h"
+#include "controller/studio/register_map.h"
 
 namespace chiaro::studio {
 
@@ -237,8 +238,15 @@ struct OlaOutput {
   double rate_hz = 40;
   std::uint16_t universe = 0;  ///< olad's own number; 0 = the same
 };
+/// A device on one of the studio's buses, as a universe whose slots are its channels.
+struct ModbusOutput {
+  double rate_hz = 20;  ///< how often levels are laid down; the bus takes what it can
+  std::string bus;
+  int unit = 1;
+  RegisterMap map;
+};
 using OutputDriver = std::variant<SacnOutput, MockOutput, ArtNetOutput, UsbProOutput, OpenDmxOutput,
-                                  UdmxOutput, OlaOutput>;
+                                  UdmxOutput, OlaOutput, ModbusOutput>;
 /// "sACN on eth0 at 40 Hz, priority 100".
 std::string output_in_words(const OutputDriver& driver);
 double rate_of(const OutputDriver& driver);
@@ -253,6 +261,9 @@ struct Bus {
   std::string device;  ///< "tcp://host:502" or "/dev/…"
   int baud = 9600;
   core::Place place;
+  DeviceName adapter{};  ///< serial: which one, by node, USB ids, serial number or socket
+  char parity = 'N';     ///< 'N', 'E' or 'O'
+  int stop_bits = 1;
 };
 
 /// Lamps behind one fuse, and what it bears.

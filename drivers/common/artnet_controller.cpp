@@ -56,9 +56,10 @@ void Controller::take(const HeardReply& reply, const ports::Endpoint& from, port
   });
   if (node == end) {
     // A full table gives up whom it has not heard for longest.
-    node = known_ < nodes_.size() ? end : std::min_element(nodes_.begin(), end, [](auto& a, auto& b) {
-      return a.heard < b.heard;
-    });
+    node = known_ < nodes_.size()
+               ? end
+               : std::min_element(nodes_.begin(), end,
+                                  [](const Node& a, const Node& b) { return a.heard < b.heard; });
     if (node == end) ++known_;
   }
   node->reply = reply;

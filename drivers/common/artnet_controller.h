@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 
+#include "controller/ports/clock.h"
 #include "controller/ports/network.h"
 #include "drivers/common/artnet_packet.h"
 

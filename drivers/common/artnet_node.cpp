@@ -75,8 +75,8 @@ void Node::show(Input& input, ports::TimePoint now) const {
 
 const std::array<std::uint8_t, kSlots>& Node::levels(std::size_t i, ports::TimePoint now) {
   Input& input = inputs_[i];
-  const auto gone = std::erase_if(input.sources,
-                                  [&](const Source& s) { return now - s.heard > kMergeTimeout; });
+  const auto gone =
+      std::erase_if(input.sources, [&](const Source& s) { return now - s.heard > kMergeTimeout; });
   if (gone > 0) show(input, now);
   if (synced_ && !synchronised(now)) input.shown = input.merged;
   return input.shown;
@@ -110,7 +110,8 @@ std::vector<Node::Answer> Node::answers(ports::TimePoint now) {
       for (std::size_t i = first; i < std::min(first + 4, inputs.size()); ++i)
         reply.ports.push_back({static_cast<std::uint8_t>(inputs[i]->port_address & 15), true, false,
                                inputs[i]->sources.size() > 1});
-      for (const auto& asker : asked_by_) answers.push_back({{asker.address, kPort}, reply_packet(reply)});
+      for (const auto& asker : asked_by_)
+        answers.push_back({{asker.address, kPort}, reply_packet(reply)});
     }
   asked_by_.clear();
   return answers;

@@ -81,8 +81,8 @@ std::vector<std::uint8_t> reply_packet(const Reply& reply) {
   p[at::ports + 1] = static_cast<std::uint8_t>(ports);
   for (std::size_t i = 0; i < ports; ++i) {
     const Reply::Port& port = reply.ports[i];
-    p[at::port_types + i] =
-        static_cast<std::uint8_t>((port.output ? kOutputPort : 0) | (port.input ? kInputPort : 0) | kDmxPort);
+    p[at::port_types + i] = static_cast<std::uint8_t>((port.output ? kOutputPort : 0) |
+                                                      (port.input ? kInputPort : 0) | kDmxPort);
     p[at::good_input + i] = port.input ? 0x80 : 0;
     p[at::good_output + i] =
         static_cast<std::uint8_t>((port.output ? 0x80 : 0) | (port.merging ? 0x08 : 0));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// When an unchanged universe may be left unsaid: four repeats first (a lost packet must not matter),
-// then one at least every 0.8 s, so that no receiver believes the source has gone.
+// When an unchanged universe may be left unsaid: four repeats first (a lost packet must not
+// matter), then one at least every 0.8 s, so that no receiver believes the source has gone.
 #pragma once
 
 #include <chrono>

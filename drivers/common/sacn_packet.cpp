@@ -129,8 +129,7 @@ std::vector<std::uint8_t> discovery_page(const Stream& stream, std::uint8_t page
   packet[kPageVector + 3] = 0x01;
   packet[kPageNumber] = page;
   packet[kLastPage] = last_page;
-  for (std::size_t i = 0; i < universes.size(); ++i)
-    put16(packet, kPageHead + 2 * i, universes[i]);
+  for (std::size_t i = 0; i < universes.size(); ++i) put16(packet, kPageHead + 2 * i, universes[i]);
   return packet;
 }
 

@@ -5,7 +5,8 @@
 
 namespace chiaro::drivers::sacn {
 
-Receiver::Receiver(std::vector<std::uint16_t> universes) : Receiver(std::move(universes), Options{}) {}
+Receiver::Receiver(std::vector<std::uint16_t> universes)
+    : Receiver(std::move(universes), Options{}) {}
 
 Receiver::Receiver(std::vector<std::uint16_t> universes, const Options& options)
     : options_(options) {
@@ -61,6 +62,7 @@ Receiver::Heard Receiver::hear(Universe& universe, const DataPacket& packet, por
     source->name = packet.source_name;
     source->priority = packet.priority;
     source->heard = now;
+    source->counts = source->counts || now - source->since >= kPriorityWait;
     take_levels(*source, packet, now);
   }
   merge(universe);
@@ -148,9 +150,8 @@ void Receiver::merge(Universe& universe) const {
 
 const ports::DmxFrame& Receiver::frame(std::size_t i, ports::TimePoint now) {
   Universe& universe = universes_[i];
-  bool changed =
-      std::erase_if(universe.sources,
-                    [&](const Source& s) { return now - s.heard > kSourceLoss; }) > 0;
+  bool changed = std::erase_if(universe.sources,
+                               [&](const Source& s) { return now - s.heard > kSourceLoss; }) > 0;
   for (Source& source : universe.sources) {
     if (!source.counts && now - source.since >= kPriorityWait) {
       source.counts = true;

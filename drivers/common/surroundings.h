@@ -39,6 +39,8 @@ struct Surroundings {
   ports::Devices& devices;
   ports::Clock& clock;
   Shared shared{};
+  /// False in tests: what would have a thread of its own is moved by those who use it.
+  bool threads = true;
 };
 
 }  // namespace chiaro::drivers

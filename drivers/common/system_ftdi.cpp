@@ -30,9 +30,10 @@ class Ftdi final : public ports::SerialPort {
     settings_ = settings;
     chip_->usb_write_timeout = kPatienceMs;
     chip_->usb_read_timeout = kPatienceMs;
-    return ftdi_usb_reset(chip_) == 0 && ftdi_set_baudrate(chip_, settings.baud) == 0 && line(false) &&
-           ftdi_setflowctrl(chip_, SIO_DISABLE_FLOW_CTRL) == 0 && ftdi_setrts(chip_, 0) == 0 &&
-           ftdi_tcioflush(chip_) == 0 && ftdi_set_latency_timer(chip_, 2) == 0;
+    return ftdi_usb_reset(chip_) == 0 && ftdi_set_baudrate(chip_, settings.baud) == 0 &&
+           line(false) && ftdi_setflowctrl(chip_, SIO_DISABLE_FLOW_CTRL) == 0 &&
+           ftdi_setrts(chip_, 0) == 0 && ftdi_tcioflush(chip_) == 0 &&
+           ftdi_set_latency_timer(chip_, 2) == 0;
   }
   bool write(std::span<const std::uint8_t> bytes) override {
     while (!bytes.empty()) {
@@ -82,7 +83,8 @@ class Ftdi final : public ports::SerialPort {
 std::string path_of(libusb_device* device) {
   std::string path = std::to_string(libusb_get_bus_number(device));
   std::array<std::uint8_t, 8> sockets{};
-  const int depth = libusb_get_port_numbers(device, sockets.data(), static_cast<int>(sockets.size()));
+  const int depth =
+      libusb_get_port_numbers(device, sockets.data(), static_cast<int>(sockets.size()));
   for (int i = 0; i < depth; ++i)
     path += (i == 0 ? "-" : ".") + std::to_string(sockets[static_cast<std::size_t>(i)]);
   return path;
@@ -106,8 +108,7 @@ core::Result<std::unique_ptr<ports::SerialPort>> open_ftdi(const ports::DeviceMa
   for (const ftdi_device_list* one = list; one != nullptr; one = one->next)
     if (path_of(one->dev) == identity.usb_path) opened = ftdi_usb_open_dev(port->chip(), one->dev);
   ftdi_list_free(&list);
-  if (opened != 0 || !port->configure(settings))
-    return refuse(ftdi_get_error_string(port->chip()));
+  if (opened != 0 || !port->configure(settings)) return refuse(ftdi_get_error_string(port->chip()));
   return std::unique_ptr<ports::SerialPort>(std::move(port));
 }
 #else

@@ -48,7 +48,8 @@ class Line final : public ports::GpioLine {
   }
   bool open(const ports::GpioSettings& settings) {
     offset_ = settings.line;
-    const std::string path = settings.chip.rfind("/dev/", 0) == 0 ? settings.chip : "/dev/" + settings.chip;
+    const std::string path =
+        settings.chip.rfind("/dev/", 0) == 0 ? settings.chip : "/dev/" + settings.chip;
     gpiod_chip* chip = gpiod_chip_open(path.c_str());
     gpiod_line_settings* line = gpiod_line_settings_new();
     gpiod_line_config* lines = gpiod_line_config_new();
@@ -90,9 +91,10 @@ core::Result<std::unique_ptr<ports::GpioLine>> SystemDevices::open_gpio(
     const ports::GpioSettings& settings) {
   auto line = std::make_unique<Line>();
   if (!line->open(settings))
-    return core::Problem{{},
-                         "cannot use line " + std::to_string(settings.line) + " of " + settings.chip,
-                         "`gpioinfo` shows the lines and who holds them"};
+    return core::Problem{
+        {},
+        "cannot use line " + std::to_string(settings.line) + " of " + settings.chip,
+        "`gpioinfo` shows the lines and who holds them"};
   return std::unique_ptr<ports::GpioLine>(std::move(line));
 }
 #else

@@ -39,9 +39,8 @@ core::Result<std::unique_ptr<ports::HidDevice>> SystemDevices::open_hid(
   if (hid_init() == 0)
     if (hid_device* device = hid_open_path(chosen->identity.node.c_str()))
       return std::unique_ptr<ports::HidDevice>(std::make_unique<Hid>(device));
-  return core::Problem{{},
-                       "cannot open " + to_string(chosen->identity),
-                       "`chiaro doctor` checks who may use it"};
+  return core::Problem{
+      {}, "cannot open " + to_string(chosen->identity), "`chiaro doctor` checks who may use it"};
 }
 #else
 core::Result<std::unique_ptr<ports::HidDevice>> SystemDevices::open_hid(

@@ -34,9 +34,9 @@ class Line final : public ports::ModbusLink {
   Outcome write(std::uint8_t unit, std::uint16_t address, std::span<const std::uint16_t> values,
                 ports::Duration timeout) override {
     address_device(unit, timeout);
-    return judge(modbus_write_registers(context_, address, static_cast<int>(values.size()),
-                                        values.data()),
-                 unit);
+    return judge(
+        modbus_write_registers(context_, address, static_cast<int>(values.size()), values.data()),
+        unit);
   }
   Outcome write_single(std::uint8_t unit, std::uint16_t address, std::uint16_t value,
                        ports::Duration timeout) override {
@@ -95,25 +95,23 @@ core::Result<std::unique_ptr<ports::ModbusLink>> SystemDevices::open_modbus(
   }
   const auto port = std::to_string(line.port);
   auto link = std::make_unique<Line>(
-      line.host.empty()
-          ? modbus_new_rtu(node.c_str(), line.settings.baud, line.settings.parity,
-                           line.settings.data_bits, line.settings.stop_bits)
-          : modbus_new_tcp_pi(line.host.c_str(), port.c_str()));
+      line.host.empty() ? modbus_new_rtu(node.c_str(), line.settings.baud, line.settings.parity,
+                                         line.settings.data_bits, line.settings.stop_bits)
+                        : modbus_new_tcp_pi(line.host.c_str(), port.c_str()));
   if (link->connect()) return std::unique_ptr<ports::ModbusLink>(std::move(link));
   const std::string where = line.host.empty() ? node : line.host + ":" + port;
   const std::string why = modbus_strerror(errno);
-  return core::Problem{
-      {},
-      "cannot reach the Modbus line at " + where + ": " + why,
-      line.host.empty() ? "`chiaro doctor` checks who may use it" : "is the gateway on? `ping " + line.host + "`"};
+  return core::Problem{{},
+                       "cannot reach the Modbus line at " + where + ": " + why,
+                       line.host.empty() ? "`chiaro doctor` checks who may use it"
+                                         : "is the gateway on? `ping " + line.host + "`"};
 }
 #else
 core::Result<std::unique_ptr<ports::ModbusLink>> SystemDevices::open_modbus(
     const ports::ModbusLine& line) {
-  return built_without("libmodbus",
-                       "the Modbus line at " +
-                           (line.host.empty() ? to_string(line.serial) : line.host),
-                       "libmodbus-dev");
+  return built_without(
+      "libmodbus", "the Modbus line at " + (line.host.empty() ? to_string(line.serial) : line.host),
+      "libmodbus-dev");
 }
 #endif
 }  // namespace chiaro::drivers

@@ -16,21 +16,21 @@ class Ola final : public ports::DmxStream {
  public:
   Ola() : client_(options()) {}
   bool open() {
-    ola::InitLogging(ola::OLA_LOG_NONE, ola::OLA_LOG_STDERR);
+    ::ola::InitLogging(::ola::OLA_LOG_NONE, ::ola::OLA_LOG_STDERR);
     return client_.Setup();
   }
   bool send(std::uint16_t universe, std::span<const std::uint8_t> levels) override {
-    ola::DmxBuffer buffer(levels.data(), static_cast<unsigned>(levels.size()));
+    ::ola::DmxBuffer buffer(levels.data(), static_cast<unsigned>(levels.size()));
     return client_.SendDmx(universe, buffer);
   }
 
  private:
-  static ola::client::StreamingClient::Options options() {
-    ola::client::StreamingClient::Options options;
+  static ::ola::client::StreamingClient::Options options() {
+    ::ola::client::StreamingClient::Options options;
     options.auto_start = false;  // a lighting program that nobody started must not start itself
     return options;
   }
-  ola::client::StreamingClient client_;
+  ::ola::client::StreamingClient client_;
 };
 
 }  // namespace

@@ -95,12 +95,13 @@ core::Result<std::unique_ptr<ports::SerialPort>> open_tty(const std::string& nod
   auto port = std::make_unique<Tty>(descriptor);
   // Two masters on one line destroy each other's messages: whoever came first keeps it.
   if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0)
-    return core::Problem{{}, node + " is in use by another program", "`fuser " + node + "` shows which"};
+    return core::Problem{
+        {}, node + " is in use by another program", "`fuser " + node + "` shows which"};
   (void)::ioctl(descriptor, TIOCEXCL, 0);
   if (!configure(descriptor, settings))
     return core::Problem{{},
-                         node + " cannot be set to " + std::to_string(settings.baud) + " baud: " +
-                             std::strerror(errno),
+                         node + " cannot be set to " + std::to_string(settings.baud) +
+                             " baud: " + std::strerror(errno),
                          "is it a serial line?"};
   return std::unique_ptr<ports::SerialPort>(std::move(port));
 }

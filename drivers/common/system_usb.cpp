@@ -46,7 +46,8 @@ class ControlDevice final : public ports::UsbDevice {
 std::string path_of(libusb_device* device) {
   std::string path = std::to_string(libusb_get_bus_number(device));
   std::array<std::uint8_t, 8> sockets{};
-  const int depth = libusb_get_port_numbers(device, sockets.data(), static_cast<int>(sockets.size()));
+  const int depth =
+      libusb_get_port_numbers(device, sockets.data(), static_cast<int>(sockets.size()));
   for (int i = 0; i < depth; ++i)
     path += (i == 0 ? "-" : ".") + std::to_string(sockets[static_cast<std::size_t>(i)]);
   return path;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lamps' network node: listens to sACN on the interfaces that the studio's outputs name, as a
-// bought node would, and decodes what it hears through the same patch that encoded it.
+// The lamps' network node: listens to sACN and Art-Net on the interfaces that the studio's outputs
+// name, as a bought node would, and decodes what it hears through the same patch that encoded it.
 #pragma once
 
 #include <memory>
@@ -11,6 +11,7 @@
 #include "controller/patch/plan.h"
 #include "controller/ports/network.h"
 #include "controller/studio/studio.h"
+#include "drivers/common/artnet_node.h"
 #include "drivers/common/sacn_receiver.h"
 
 namespace chiaro::simulator {
@@ -39,10 +40,21 @@ class Node {
 
  private:
   explicit Node(patch::Plan plan);
+  core::Result<core::Done> open_sacn(const studio::Studio& studio, ports::Network& network);
+  core::Result<core::Done> open_artnet(const studio::Studio& studio, ports::Network& network);
+  void listen_to_artnet(ports::TimePoint now);
+
+  /// One Art-Net node on one interface.
+  struct ArtNet {
+    std::unique_ptr<ports::DatagramSocket> socket;
+    drivers::artnet::Node node;
+    std::vector<std::size_t> frames;  ///< which of frames_ each of its ports is
+  };
 
   patch::Plan plan_;
   drivers::sacn::Receiver receiver_;
   std::vector<std::unique_ptr<ports::DatagramSocket>> sockets_;
+  std::vector<ArtNet> artnet_;
   std::vector<ports::DmxFrame> frames_;
   std::uint64_t packets_ = 0, out_of_sequence_ = 0;
   bool heard_ = false;

@@ -23,9 +23,9 @@ using Bytes = std::vector<std::uint8_t>;
 struct FakeDevice {
   ports::DeviceFound found;
   bool plugged = true;
-  bool forbidden = false;  ///< opening says "permission denied"
-  int fail_next = 0;       ///< so many calls fail
-  int lose_next = 0;       ///< so many messages vanish without a trace
+  bool forbidden = false;   ///< opening says "permission denied"
+  int fail_next = 0;        ///< so many calls fail
+  int lose_next = 0;        ///< so many messages vanish without a trace
   ports::Duration delay{};  ///< each call takes so long on `clock`
   FakeClock* clock = nullptr;
   int opens = 0, open_now = 0, calls = 0;

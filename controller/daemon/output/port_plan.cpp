@@ -2,6 +2,8 @@
 #include "controller/daemon/output/port_plan.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 
 namespace chiaro::daemon {
 namespace {
@@ -10,8 +12,28 @@ ports::DeviceMatch match_of(const studio::DeviceName& device) {
   return {device.node, device.vendor, device.product, device.serial, device.usb_path, "", ""};
 }
 
+ports::Duration seconds(double s) { return ports::Duration(std::llround(s * 1e9)); }
+
+/// "tcp://host:502" or a serial adapter.
+ports::ModbusLine line_of(const studio::Bus& bus) {
+  ports::ModbusLine line;
+  line.settings = {bus.baud, 8, bus.stop_bits, bus.parity};
+  constexpr std::string_view kTcp = "tcp://";
+  if (bus.device.rfind(kTcp, 0) != 0) {
+    line.serial = match_of(bus.adapter);
+    return line;
+  }
+  const std::string rest = bus.device.substr(kTcp.size());
+  const auto colon = rest.rfind(':');
+  line.host = rest.substr(0, colon);
+  if (colon != std::string::npos)
+    line.port = static_cast<std::uint16_t>(std::strtoul(rest.c_str() + colon + 1, nullptr, 10));
+  return line;
+}
+
 /// Fills in what each kind of output says of itself.
 struct Filler {
+  const studio::Studio& studio;
   PortPlan& plan;
   drivers::OutputSettings& settings;
 
@@ -52,6 +74,22 @@ struct Filler {
     settings.device = match_of(udmx.device);
     settings.slots = udmx.slots;
   }
+  void operator()(const studio::ModbusOutput& modbus) {
+    plan.driver = "modbus";
+    for (const auto& bus : studio.buses)
+      if (bus.name == modbus.bus) settings.line = line_of(bus);
+    settings.module.unit = static_cast<std::uint8_t>(modbus.unit);
+    settings.module.timeout = seconds(modbus.map.timeout_s);
+    settings.module.least_gap = seconds(modbus.map.gap_s);
+    settings.module.single_writes = modbus.map.single_writes;
+    for (const auto& channel : modbus.map.channels)
+      settings.module.channels.push_back(
+          {static_cast<std::uint16_t>(channel.slot), static_cast<std::uint8_t>(channel.slots),
+           static_cast<std::uint16_t>(channel.address), static_cast<std::uint8_t>(channel.words),
+           channel.low_word_first, channel.from, channel.to,
+           channel.dali ? drivers::modbus::Channel::Law::dali
+                        : drivers::modbus::Channel::Law::linear});
+  }
   void operator()(const studio::OlaOutput& ola) {
     plan.driver = "ola";
     settings.ola_universe = ola.universe;
@@ -79,7 +117,7 @@ PortPlan plan_of(const studio::Studio& studio, const studio::Output& output,
   plan.settings.cid = cid;
   plan.settings.source_name = "Chiaro: " + studio.name;
   plan.settings.rate_hz = plan.rate_hz;
-  std::visit(Filler{plan, plan.settings}, output.driver);
+  std::visit(Filler{studio, plan, plan.settings}, output.driver);
   for (const auto& other : studio.outputs)
     if (together(output.driver, other.driver)) plan.settings.together.push_back(other.universe);
   std::sort(plan.settings.together.begin(), plan.settings.together.end());

@@ -76,8 +76,7 @@ core::Result<std::unique_ptr<Show>> Show::make(const studio::Studio& studio, con
     show->fixtures_before_.push_back(index ? static_cast<std::ptrdiff_t>(*index) : -1);
   }
   show->recall_cues(read_cues(world.state_folder, studio, warnings), held);
-  for (const auto& output : studio.outputs)
-    show->add_port(output, options, before, warnings);
+  for (const auto& output : studio.outputs) show->add_port(output, options, before, warnings);
   show->wanted_words_.resize(wanted_format(studio).words);
   const BoxFormat format = sent_format(studio);
   show->sent_words_.resize(format.words);
@@ -97,12 +96,11 @@ void Show::add_port(const studio::Output& output, const Options& options, const 
   frame_of_port_.push_back(static_cast<std::size_t>(
       std::lower_bound(universes.begin(), universes.end(), output.universe) - universes.begin()));
   drivers::Surroundings& around = *options.around;
-  ports_.push_back(old >= 0
-                       ? nullptr
-                       : std::make_unique<PortSlot>(
-                             plan.driver, plan.settings,
-                             open_port(plan, options.dry_run, around, warnings), plan.rate_hz,
-                             around.clock, options.real_time));
+  ports_.push_back(
+      old >= 0 ? nullptr
+               : std::make_unique<PortSlot>(plan.driver, plan.settings,
+                                            open_port(plan, options.dry_run, around, warnings),
+                                            plan.rate_hz, around.clock, options.real_time));
 }
 
 void Show::recall_cues(std::unique_ptr<rig::CueList> list, const rig::Held* held) {

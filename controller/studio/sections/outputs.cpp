@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// outputs: universe N: {sacn: {…}}, {artnet: {…}}, a dongle or mock - where each universe leaves the machine.
+// outputs: universe N: {sacn: {…}}, {artnet: {…}}, a dongle or mock - where each universe leaves
+// the machine.
 #include <algorithm>
 #include <set>
 
@@ -60,8 +61,8 @@ std::optional<std::uint16_t> hexadecimal(const std::string& word) {
   return static_cast<std::uint16_t>(std::stoul(word, nullptr, 16));
 }
 
-/// device: /dev/…, usb: "0403:6001", serial: …, path: "1-1.4". One of them at least: an adapter
-/// that nobody named may be somebody else's.
+}  // namespace
+
 DeviceName read_device(Section& section, Report& report) {
   DeviceName device;
   const Tree* node = section.find("device");
@@ -80,15 +81,19 @@ DeviceName read_device(Section& section, Report& report) {
       device.vendor = *vendor;
       device.product = *product;
     } else {
-      report.error(*usb, in_quotes(*ids) + " are no USB ids", "for example \"0403:6001\"; `lsusb` shows them");
+      report.error(*usb, in_quotes(*ids) + " are no USB ids",
+                   "for example \"0403:6001\"; `lsusb` shows them");
     }
   }
   if (node == nullptr && serial == nullptr && path == nullptr && usb == nullptr)
-    report.error(section.tree(), "which device is not said",
-                 "add serial: \"EN123456\", path: \"1-1.4\" or device: /dev/ttyUSB0; `chiaro doctor` "
-                 "lists what is plugged in");
+    report.error(
+        section.tree(), "which device is not said",
+        "add serial: \"EN123456\", path: \"1-1.4\" or device: /dev/ttyUSB0; `chiaro doctor` "
+        "lists what is plugged in");
   return device;
 }
+
+namespace {
 
 ArtNetOutput read_artnet(const Tree& tree, Report& report) {
   Section section(tree, "an Art-Net output", report);
@@ -192,15 +197,20 @@ OutputDriver bare_driver(std::size_t index, const Tree& tree, Report& report) {
       return UdmxOutput{};
     case 6:
       return OlaOutput{};
+    case 7:
+      report.error(tree, "which Modbus device is not said",
+                   "{modbus: {bus: rack, unit: 1, map: waveshare/analog-output-8ch}}");
+      return MockOutput{};
     default:
       return MockOutput{};
   }
 }
 
-OutputDriver read_driver(const Tree& tree, Report& report) {
+OutputDriver read_driver(const Tree& tree, const Studio& studio, Context& context) {
+  Report& report = context.report;
   const auto kind = variant(
       &tree, "an output driver",
-      {"sacn", "mock", "artnet", "usbpro", "opendmx", "udmx", "ola"}, report);
+      {"sacn", "mock", "artnet", "usbpro", "opendmx", "udmx", "ola", "modbus"}, context.report);
   if (!kind) return MockOutput{};
   if (kind->body == nullptr) return bare_driver(kind->index, tree, report);
   switch (kind->index) {
@@ -216,6 +226,8 @@ OutputDriver read_driver(const Tree& tree, Report& report) {
       return read_udmx(*kind->body, report);
     case 6:
       return read_ola(*kind->body, report);
+    case 7:
+      return read_modbus_output(*kind->body, studio, context);
     default:
       return read_mock(*kind->body, report);
   }
@@ -230,7 +242,7 @@ void read_outputs(Section& top, Context& context, Studio& studio) {
   std::set<std::uint16_t> seen;
   for (std::size_t i = 0; i < tree->keys.size(); ++i) {
     const auto universe = universe_number(tree->keys[i], context.report);
-    OutputDriver driver = read_driver(tree->items[i], context.report);
+    OutputDriver driver = read_driver(tree->items[i], studio, context);
     if (!universe) continue;
     if (!seen.insert(*universe).second)
       context.report.error(tree->keys[i],

@@ -23,8 +23,13 @@ void read_cameras(Section& top, Context& context, Studio& studio);
 void read_exposure(Section& top, Context& context, Studio& studio);
 void read_ambient(Section& top, Context& context, Studio& studio);
 void read_safety(Section& top, Context& context, Studio& studio);
-void read_outputs(Section& top, Context& context, Studio& studio);
 void read_buses(Section& top, Context& context, Studio& studio);
+/// After buses.
+void read_outputs(Section& top, Context& context, Studio& studio);
+/// Parts of outputs and buses: device: /dev/…, usb: "0403:6001", serial: …, path: "1-1.4". One of
+/// them at least: an adapter that nobody named may be somebody else's.
+DeviceName read_device(Section& section, reading::Report& report);
+ModbusOutput read_modbus_output(const Tree& tree, const Studio& studio, Context& context);
 /// After exposure (colour that nobody sets starts at its white balance) and buses.
 void read_fixtures(Section& top, Context& context, profiles::Shelf& shelf, Studio& studio);
 /// After fixtures.

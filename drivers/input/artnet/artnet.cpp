@@ -17,9 +17,10 @@ class ArtNetInput final : public ports::DmxInput {
   core::Result<core::Done> open() override {
     const auto address = network_.address_of(settings_.interface);
     if (!address)
-      return core::Problem{{},
-                           "the network interface '" + settings_.interface + "' has no IPv4 address",
-                           "`ip address` lists them"};
+      return core::Problem{
+          {},
+          "the network interface '" + settings_.interface + "' has no IPv4 address",
+          "`ip address` lists them"};
     ports::Network::Options options;
     options.interface = settings_.interface;
     options.local_port = kPort;

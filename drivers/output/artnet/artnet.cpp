@@ -32,7 +32,8 @@ class ArtNetPort final : public ports::OutputPort {
     if (auto opened = controller_->open(); !opened) {
       auto problems = opened.problems();
       for (auto& problem : problems)
-        problem.what = "Art-Net universe " + std::to_string(settings_.universe) + ": " + problem.what;
+        problem.what =
+            "Art-Net universe " + std::to_string(settings_.universe) + ": " + problem.what;
       return problems;
     }
     report_.health = ports::PortHealth::good;

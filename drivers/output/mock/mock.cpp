@@ -11,7 +11,9 @@ class MockPort final : public ports::OutputPort {
     report_.health = ports::PortHealth::good;
     return core::Done{};
   }
-  void send(const ports::DmxFrame&, ports::TimePoint) override { ++report_.frames_sent; }
+  void send(const ports::DmxFrame&, ports::TimePoint) override {
+    if (report_.health == ports::PortHealth::good) ++report_.frames_sent;
+  }
   void release(ports::TimePoint) override { report_.health = ports::PortHealth::closed; }
   ports::PortReport report() const override { return report_; }
   bool physical() const override { return false; }

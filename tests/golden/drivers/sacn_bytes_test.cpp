@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // A whole E1.31 data packet, byte for byte, written down from ANSI E1.31-2018 (tables 4-1 to 4-3).
 #include <gtest/gtest.h>
-#include <sstream>
-#include <vector>
 
 #include "drivers/common/sacn_packet.h"
+#include "tests/golden/drivers/bytes.h"
 
 namespace chiaro::drivers::sacn {
 namespace {
 
-std::vector<int> bytes_of(const std::string& hexadecimal) {
-  std::istringstream in(hexadecimal);
-  std::vector<int> bytes;
-  for (std::string word; in >> word;) bytes.push_back(std::stoi(word, nullptr, 16));
-  return bytes;
-}
+using golden::bytes_of;
+using golden::numbers;
 
 TEST(SacnBytes, AreThoseOfTheStandard) {
   Stream stream;
@@ -57,6 +52,49 @@ TEST(SacnBytes, KeepANulBehindTheLongestName) {
   const Packet packet = data_packet(stream);
   EXPECT_EQ(packet[at::source_name + 62], 'x');
   EXPECT_EQ(packet[at::source_name + 63], 0);
+}
+
+/// Root layer of an extended packet: `length` bytes follow the preamble, vector 8.
+std::string root(const std::string& length) {
+  return "00 10 00 00 41 53 43 2d 45 31 2e 31 37 00 00 00 " + length +
+         " 00 00 00 08 a0 a1 a2 a3 a4 a5 a6 a7 a8 a9 aa ab ac ad ae af ";
+}
+Cid a_cid() {
+  Cid cid{};
+  for (std::size_t i = 0; i < cid.size(); ++i) cid[i] = static_cast<std::uint8_t>(0xa0 + i);
+  return cid;
+}
+
+TEST(SacnBytes, OfASynchronisationPacket) {
+  SyncPacket packet = sync_packet(a_cid(), 0x1f40);
+  packet[sync_at::sequence] = 0x67;
+  EXPECT_EQ(numbers(packet), bytes_of(root("70 21") +       // 49 - 16 = 33
+                                      "70 0b 00 00 00 01 "  // framing: 49 - 38 = 11, vector 1
+                                      "67 1f 40 00 00"));   // sequence, universe 8000, reserved
+}
+
+TEST(SacnBytes, OfAUniverseDiscoveryPage) {
+  Stream stream;
+  stream.cid = a_cid();
+  stream.source_name = "Chiaro";
+  const std::vector<std::uint16_t> universes{1, 2, 0x0107};
+  auto expected = bytes_of(root("70 6e") +             // 126 - 16 = 110
+                           "70 58 00 00 00 02 "        // framing: 126 - 38 = 88, vector 2
+                           "43 68 69 61 72 6f");       // "Chiaro"
+  expected.resize(112, 0);                             // 64 letters, 4 reserved
+  for (const int byte : bytes_of("70 0e 00 00 00 01 "  // list: 126 - 112 = 14, vector 1
+                                 "00 00 "              // page 0 of 0
+                                 "00 01 00 02 01 07"))
+    expected.push_back(byte);
+  EXPECT_EQ(numbers(discovery_page(stream, 0, 0, universes)), expected);
+}
+
+TEST(SacnBytes, OfASynchronisedDataPacketNameTheirUniverse) {
+  Stream stream;
+  stream.sync_universe = 0x1f40;
+  const Packet packet = data_packet(stream);
+  EXPECT_EQ(packet[109], 0x1f);
+  EXPECT_EQ(packet[110], 0x40);
 }
 
 }  // namespace

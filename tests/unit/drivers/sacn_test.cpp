@@ -3,6 +3,8 @@
 
 #include "drivers/common/sacn_packet.h"
 #include "drivers/common/sacn_receiver.h"
+#include "drivers/registry.h"
+#include "tests/support/stage_for_outputs.h"
 
 namespace chiaro::drivers::sacn {
 namespace {
@@ -122,6 +124,200 @@ TEST(SacnReceiver, ForgetsASourceAfterTwoAndAHalfSilentSecondsAndThenTakesAnySeq
   receiver.hear(packet(1, 100, 80), kStart);
   EXPECT_EQ(receiver.hear(packet(1, 99, 90), kStart + 1s), Receiver::Heard::out_of_sequence);
   EXPECT_EQ(receiver.hear(packet(1, 99, 90), kStart + 2501ms), Receiver::Heard::levels);
+}
+
+/// The same packet with another start code.
+Packet priorities(std::uint8_t source, std::uint8_t sequence, std::uint8_t priority) {
+  Packet p = packet(source, sequence, priority);
+  p[at::start_code] = kAddressPriorities;
+  return p;
+}
+Packet synchronised(std::uint8_t sequence, std::uint8_t level, std::uint8_t options = 0) {
+  Packet p = packet(1, sequence, level, 100, options);
+  put16(p, at::sync_universe, 9);
+  return p;
+}
+SyncPacket sync(std::uint8_t sequence) {
+  Cid cid;
+  cid.fill(1);
+  SyncPacket p = sync_packet(cid, 9);
+  p[sync_at::sequence] = sequence;
+  return p;
+}
+
+class APriorityReceiver : public testing::Test {
+ protected:
+  Receiver receiver_{{7}, {.per_address_priority = true, .synchronised = false}};
+  int level(ports::Duration at) { return receiver_.frame(0, kStart + at).levels[0]; }
+};
+
+TEST_F(APriorityReceiver, WaitsASecondAndAHalfForANewSourcesPriorities) {
+  receiver_.hear(packet(1, 1, 80), kStart);
+  EXPECT_EQ(level(1s), 0);
+  EXPECT_EQ(level(1500ms), 80);
+}
+
+TEST_F(APriorityReceiver, TakesASourceAtOnceWhenItsPrioritiesCome) {
+  receiver_.hear(packet(1, 1, 80), kStart);
+  EXPECT_EQ(receiver_.hear(priorities(1, 2, 120), kStart + 20ms), Receiver::Heard::priorities);
+  EXPECT_EQ(level(20ms), 80);
+}
+
+TEST_F(APriorityReceiver, LetsTheHighestPriorityOfEachAddressWinAndMergesTies) {
+  receiver_.hear(packet(1, 1, 200), kStart);
+  Packet mine = priorities(1, 2, 100);
+  mine[at::levels + 0] = 0;    // not mine, whatever my level says
+  mine[at::levels + 1] = 150;  // above the other
+  mine[at::levels + 2] = 90;   // below
+  receiver_.hear(mine, kStart);
+  receiver_.hear(packet(2, 1, 50, 100), kStart);
+  const auto& frame = receiver_.frame(0, kStart + 1600ms);
+  EXPECT_EQ(frame.levels[0], 50);
+  EXPECT_EQ(frame.levels[1], 200);
+  EXPECT_EQ(frame.levels[2], 50);
+  EXPECT_EQ(frame.levels[3], 200);  // a tie: the highest level
+}
+
+TEST_F(APriorityReceiver, FallsBackToThePacketsPriorityWhenTheyCease) {
+  receiver_.hear(packet(1, 1, 200, 50), kStart);
+  receiver_.hear(priorities(1, 2, 150), kStart);
+  for (std::uint8_t i = 0; i < 40; ++i) {
+    const auto at = kStart + i * 100ms;
+    receiver_.hear(packet(1, static_cast<std::uint8_t>(3 + i), 200, 50), at);
+    receiver_.hear(packet(2, static_cast<std::uint8_t>(1 + i), 10, 100), at);
+    if (i == 20) {
+      EXPECT_EQ(level(i * 100ms), 200);
+    }
+  }
+  EXPECT_EQ(level(3900ms), 10);
+}
+
+TEST(SacnReceiver, TakesPriorityZeroAsAPriority) {
+  Receiver receiver({7});
+  receiver.hear(packet(1, 1, 80, 0), kStart);
+  EXPECT_EQ(receiver.frame(0, kStart).levels[0], 80);
+}
+
+class ASynchronisedReceiver : public testing::Test {
+ protected:
+  Receiver receiver_{{7}, {.per_address_priority = false, .synchronised = true}};
+  int level(ports::Duration at) { return receiver_.frame(0, kStart + at).levels[0]; }
+};
+
+TEST_F(ASynchronisedReceiver, ShowsLevelsAtOnceUntilAFirstSyncAndThenWaitsForEach) {
+  receiver_.hear(synchronised(1, 10), kStart);
+  EXPECT_EQ(receiver_.sync_to_join(), 9);
+  EXPECT_EQ(receiver_.sync_to_join(), 0);
+  EXPECT_EQ(level(0s), 10);
+  EXPECT_EQ(receiver_.hear(sync(1), kStart + 25ms), Receiver::Heard::sync);
+  receiver_.hear(synchronised(2, 20), kStart + 50ms);
+  EXPECT_EQ(level(60ms), 10);
+  EXPECT_EQ(receiver_.hear(sync(1), kStart + 70ms), Receiver::Heard::out_of_sequence);
+  EXPECT_EQ(level(70ms), 10);
+  receiver_.hear(sync(2), kStart + 75ms);
+  EXPECT_EQ(level(75ms), 20);
+}
+
+TEST_F(ASynchronisedReceiver, GoesOnWithoutWhenSyncCeasesUnlessToldToHold) {
+  receiver_.hear(synchronised(1, 10), kStart);
+  receiver_.hear(sync(1), kStart);
+  receiver_.hear(synchronised(2, 20), kStart + 3s);
+  EXPECT_EQ(level(3s), 20);
+  receiver_.hear(synchronised(3, 30, kForceSync), kStart + 4s);
+  EXPECT_EQ(level(4s), 20);
+}
+
+TEST(SacnDiscovery, PagesHold512UniversesEachAndReadBack) {
+  Stream stream;
+  stream.source_name = "Studio 1";
+  std::vector<std::uint16_t> universes;
+  for (std::uint16_t u = 1; u <= 600; ++u) universes.push_back(u);
+  const auto pages = discovery_pages(stream, universes);
+  ASSERT_EQ(pages.size(), 2u);
+  const auto first = parse_discovery(pages[0]), second = parse_discovery(pages[1]);
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(first->universes.size(), 512u);
+  EXPECT_EQ(second->universes.back(), 600);
+  EXPECT_EQ(second->page, 1);
+  EXPECT_EQ(second->last_page, 1);
+  EXPECT_EQ(first->source_name, "Studio 1");
+  EXPECT_EQ(discovery_pages(stream, {}).size(), 1u);
+  for (std::size_t size = 0; size < pages[1].size(); ++size)
+    EXPECT_FALSE(parse_discovery(std::span(pages[1]).first(size))) << size;
+}
+
+/// What the sACN ports of one studio put on the wire together.
+class ASource : public testing::Test {
+ protected:
+  ASource() {
+    ear_ = std::move(*stage_.network().open_datagram({"lo", kPort, true, false}));
+    for (const std::uint16_t u : std::vector<std::uint16_t>{1, 2, 9, kDiscoveryUniverse})
+      EXPECT_TRUE(ear_->join(multicast_group(u)));
+    settings_.together = {1, 2};
+    settings_.interface = "lo";
+  }
+  std::unique_ptr<ports::OutputPort> port(std::uint16_t universe) {
+    settings_.universe = universe;
+    auto port = std::move(*make_output("sacn", settings_, stage_.around()));
+    EXPECT_TRUE(port->open());
+    return port;
+  }
+  struct Count {
+    int data = 0, sync = 0, pages = 0;
+  };
+  Count heard() {
+    Count count;
+    std::array<std::uint8_t, 2048> bytes;
+    while (const auto size = ear_->receive(bytes, nullptr)) {
+      const auto datagram = std::span(bytes).first(*size);
+      count.data += parse(datagram).has_value();
+      count.sync += parse_sync(datagram).has_value();
+      if (const auto page = parse_discovery(datagram)) {
+        ++count.pages;
+        EXPECT_EQ(page->universes, (std::vector<std::uint16_t>{1, 2}));
+      }
+    }
+    return count;
+  }
+  support::StageForOutputs stage_{"mock"};
+  OutputSettings settings_;
+  std::unique_ptr<ports::DatagramSocket> ear_;
+};
+
+TEST_F(ASource, TellsItsUniversesOnceInTenSecondsForAllPorts) {
+  auto first = port(1), second = port(2);
+  for (auto at = 0ms; at < 21s; at += 25ms) {
+    first->send({}, kStart + at);
+    second->send({}, kStart + at);
+  }
+  const Count count = heard();
+  EXPECT_EQ(count.pages, 3);
+  EXPECT_EQ(count.data, 2 * 21 * 40);
+}
+
+TEST_F(ASource, EndsEachFrameWithOneSyncFromTheLastUniverse) {
+  settings_.sync = 9;
+  auto first = port(1), second = port(2);
+  for (int i = 0; i < 3; ++i) {
+    first->send({}, kStart);
+    second->send({}, kStart);
+  }
+  EXPECT_EQ(heard().sync, 3);
+}
+
+TEST_F(ASource, NeverFallsSilentForTheEightTenthsOfASecondWhenItIsQuiet) {
+  settings_.quiet = true;
+  auto only = port(1);
+  int silent = 0, longest = 0, sent = 0;
+  for (int i = 0; i < 800; ++i) {
+    only->send({}, kStart + i * 25ms);
+    const int now = heard().data;
+    sent += now;
+    silent = now > 0 ? 0 : silent + 1;
+    longest = std::max(longest, silent);
+  }
+  EXPECT_LT(longest * 25, 800);
+  EXPECT_LT(sent, 60);
 }
 
 }  // namespace

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "controller/studio/register_map.h"
+
+#include <gtest/gtest.h>
+
+namespace chiaro::studio {
+namespace {
+
+const std::filesystem::path kShipped = CHIARO_SOURCE "/config/modbus";
+
+core::Result<RegisterMap> parse(const std::string& channels) {
+  return parse_register_map("map: a/b\nmaker: A\ndevice: B\nchannels: " + channels, "a/b",
+                            "b.yaml");
+}
+
+TEST(RegisterMaps, ThatAreShippedAllLoad) {
+  const auto names = register_map_names(kShipped);
+  EXPECT_GE(names.size(), 6u);
+  for (const auto& name : names) {
+    const auto map = load_register_map(name, {}, kShipped);
+    ASSERT_TRUE(map) << core::to_string(map.problems());
+    EXPECT_FALSE(map->channels.empty()) << name;
+  }
+}
+
+TEST(RegisterMaps, OfTheNamedDevicesSayWhatTheirMakersSay) {
+  const auto waveshare = load_register_map("waveshare/analog-output-8ch", {}, kShipped);
+  ASSERT_TRUE(waveshare);
+  ASSERT_EQ(waveshare->channels.size(), 8u);
+  EXPECT_EQ(waveshare->slots, 16);
+  EXPECT_EQ(waveshare->channels[7].address, 7);
+  EXPECT_EQ(waveshare->channels[7].slot, 14);
+  EXPECT_EQ(waveshare->channels[7].to, 10000);
+  const auto wiren = load_register_map("wiren-board/rgbw-dimmer", {}, kShipped);
+  ASSERT_TRUE(wiren);
+  EXPECT_EQ(wiren->channels[0].name, "green");  // by address; red has the first slot all the same
+  EXPECT_EQ(wiren->channels[0].slot, 1);
+  EXPECT_EQ(wiren->channels[1].slot, 0);
+  const auto intesis = load_register_map("intesis/dali-gateway", {}, kShipped);
+  ASSERT_TRUE(intesis);
+  EXPECT_EQ(intesis->channels[63].address, 6315);
+  EXPECT_NEAR(intesis->gap_s, 0.032, 1e-9);
+}
+
+TEST(RegisterMaps, ReportEveryMistakeWithItsPlace) {
+  const auto map = parse("\n  - {register: 70000}\n  - {regster: 1}\n  - {register: 5, words: 3}");
+  ASSERT_FALSE(map);
+  EXPECT_GE(map.problems().size(), 3u);
+  for (const auto& problem : map.problems()) EXPECT_GT(problem.where.line, 4);
+}
+
+TEST(RegisterMaps, RefuseARegisterThatIsUsedTwiceAndADeviceLargerThanAUniverse) {
+  EXPECT_FALSE(parse("[{register: 5}, {register: 4, words: 2}]"));
+  EXPECT_FALSE(parse("[{register: 0, repeat: 300, bits: 16}]"));
+  EXPECT_TRUE(parse("[{register: 0, repeat: 256, bits: 16}]"));
+}
+
+TEST(RegisterMaps, NameTheNearestWhenThereIsNone) {
+  const auto map = load_register_map("waveshare/analog-output-8h", {}, kShipped);
+  ASSERT_FALSE(map);
+  EXPECT_NE(map.problems()[0].remedy.find("waveshare/analog-output-8ch"), std::string::npos);
+  EXPECT_FALSE(load_register_map("../fixtures/generic/dimmer", {}, kShipped));
+}
+
+}  // namespace
+}  // namespace chiaro::studio
