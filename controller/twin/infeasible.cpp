@@ -17,6 +17,10 @@ using core::Vec3;
 constexpr double kLeastFromSitter = 0.6;  // metres
 constexpr double kPole = 0.02;            // half a stand's width
 
+/// Higher than this in front of the sitter a lamp hangs on a boom arm, whose pole stands beside the
+/// picture: how else would a butterfly light hang straight above the camera's line?
+const double kBoomFrom = core::radians(35);
+
 /// What a lamp fills: a sphere, a fitted modifier's face, a stand's pole.
 struct Body {
   Vec3 centre;
@@ -49,7 +53,9 @@ Body body(const studio::Fixture& fixture, const core::FixtureState& state, const
                       0.5 * (static_cast<double>(i % 3) - 1) * modifier.width * right +
                       0.5 * (static_cast<double>(i / 3) - 1) * modifier.height * up;
   }
-  if (std::holds_alternative<studio::StandMount>(fixture.mount))
+  const core::Spherical about = core::spherical(geometry.aim, placed.position);
+  const bool boom = about.elevation > kBoomFrom && std::abs(about.azimuth) < core::kPi / 2;
+  if (std::holds_alternative<studio::StandMount>(fixture.mount) && !boom)
     out.foot = Vec3{placed.position.x, placed.position.y, std::min(floor, placed.position.z)};
   return out;
 }

@@ -43,6 +43,10 @@ TEST_F(Infeasible, OnlyTheStandInThePicture) {
   // Lamp above the picture, its pole runs down through it.
   EXPECT_THAT(at(180, 55, 1.1), HasSubstr("show in the picture"));
 }
+TEST_F(Infeasible, ALampHighInFrontHangsOnABoom) {
+  EXPECT_THAT(at(0, 50, 1.6), IsEmpty());
+  EXPECT_THAT(at(0, 20, 1.6), HasSubstr("show in the picture"));
+}
 TEST_F(Infeasible, AllowedInThePictureWhenTheFileSaysSo) {
   studio.cameras.front().lamps_may_show = true;
   EXPECT_THAT(at(160, 10, 1.0), IsEmpty());
