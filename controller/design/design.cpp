@@ -72,9 +72,16 @@ void describe(const studio::Studio& studio, const Layers& shown, const Prepared&
                             : predicted(studio, shown, look.placed, Accuracy::exact);
 }
 
-/// Where the lamps stand now; held ones also shine as the design holds them.
-studio::Rig placed_now(const studio::Studio& studio, const Variables& all) {
+/// Where the lamps stand now; held ones also shine as the design holds them. Motors need nobody:
+/// what is wanted of them is where they will be.
+studio::Rig placed_now(const studio::Studio& studio, const Variables& all,
+                       const studio::Rig& wanted) {
+  using core::Dof;
   studio::Rig rig = studio::placed_rig(studio);
+  for (const std::size_t fixture : all.lit)
+    for (const Dof dof : {Dof::pan, Dof::tilt, Dof::arc, Dof::track})
+      if (rig.states[fixture].has(dof) && wanted.states[fixture].has(dof))
+        rig.states[fixture].set(dof, wanted.states[fixture].get(dof));
   for (const std::size_t fixture : all.held) rig.states[fixture] = all.base.states[fixture];
   return rig;
 }
@@ -147,7 +154,7 @@ core::Result<Look> design(const studio::Studio& studio, const LayersSource& twin
   look.wanted = options.reference
                     ? reference_rig(studio, goal, options, all, sizes.full, watch)
                     : completed(studio, sizes, all, placements, options.move_stands, watch);
-  look.placed = completed(studio, sizes, all, placed_now(studio, all), false, watch);
+  look.placed = completed(studio, sizes, all, placed_now(studio, all, look.wanted), false, watch);
   describe(studio, layers, sizes.full, all, look);
   if (options.advise_exposure) advise_exposure(studio, layers, sizes, goal, all, watch, look);
 

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include "controller/design/starts.h"
+#include "controller/twin/aim.h"
+
 namespace chiaro::design {
 namespace {
 
@@ -19,6 +22,37 @@ void add_placement(Variables& variables, std::size_t fixture, const studio::Regi
   add(core::Dof::azimuth, region.azimuth);
   add(core::Dof::elevation, region.elevation);
   add(core::Dof::distance, region.distance);
+}
+
+/// A head is searched about the subject only: most of what it could point at is the room.
+core::Range near_aim(double aimed, core::Range reach) {
+  const double window = core::radians(20);
+  return {reach.clamp(aimed - window), reach.clamp(aimed + window)};
+}
+
+/// What motors move: along arcs and tracks, and heads about where they point at the subject.
+void add_motors(Variables& variables, std::size_t index, const studio::Studio& studio) {
+  const studio::Fixture& fixture = studio.fixtures[index];
+  const auto ranges = fixture.ranges();
+  const auto range_of = [&](core::Dof dof) {
+    for (const auto& [each, range] : ranges)
+      if (each == dof) return range;
+    return core::Range{0, 0};
+  };
+  const auto add = [&](core::Dof dof, core::Range range) {
+    if (range.width() > 0) variables.moving.push_back({index, dof, range});
+  };
+  add(core::Dof::arc, range_of(core::Dof::arc));
+  add(core::Dof::track, range_of(core::Dof::track));
+  const auto* head = std::get_if<studio::PanTiltMount>(&fixture.mount);
+  if (head == nullptr) return;
+  const core::Range pan = range_of(core::Dof::pan), tilt = range_of(core::Dof::tilt);
+  const core::FixtureState& now = variables.base.states[index];
+  const auto aimed = twin::aimed_at(*head, pan, tilt, estimated_aim(studio).origin,
+                                    {now.get(core::Dof::pan), now.get(core::Dof::tilt)});
+  if (!aimed) return;
+  add(core::Dof::pan, near_aim(aimed->pan, pan));
+  add(core::Dof::tilt, near_aim(aimed->tilt, tilt));
 }
 
 bool is_locked(const Options& options, const std::string& name) {
@@ -96,6 +130,7 @@ Variables variables_of(const studio::Studio& studio, const Options& options) {
     variables.limits.push_back({0, fixture.limits.most});
     const studio::Region* region = region_of(fixture);
     if (region != nullptr && options.move_stands) add_placement(variables, i, *region);
+    if (options.move_stands) add_motors(variables, i, studio);
   }
   return variables;
 }

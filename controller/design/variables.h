@@ -21,7 +21,7 @@ struct Variable {
 
 struct Variables {
   studio::Rig base;                 ///< everything that is not a variable
-  std::vector<Variable> moving;     ///< stands and virtual mounts: azimuth, elevation, distance
+  std::vector<Variable> moving;     ///< stands, virtual mounts and motors
   std::vector<std::size_t> lit;     ///< fixtures whose level is solved, ascending
   std::vector<std::size_t> held;    ///< fixtures that stay as `base` has them, ascending
   std::vector<core::Range> limits;  ///< of the level, beside `lit`

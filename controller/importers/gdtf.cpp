@@ -215,12 +215,14 @@ void add_shutter(const std::vector<Function>& functions, double full, LibraryCha
     if (plain && words.find("open") != std::string::npos && !channel.lit) channel.lit = f.to / full;
     if (plain && words.find("clos") != std::string::npos && !channel.closed)
       channel.closed = f.from / full;
-    // A plain shutter runs from closed to open.
-    if (plain && f.physical_to > f.physical_from && !channel.lit && f.to > f.from) {
+  }
+  // Without a name a plain shutter runs from closed to open.
+  for (const Function& f : functions)
+    if (!channel.lit && !channel.closed && f.attribute.find("Strobe") == std::string::npos &&
+        f.physical_to > f.physical_from && f.to > f.from) {
       channel.lit = f.to / full;
       channel.closed = f.from / full;
     }
-  }
   if (channel.lit) channel.held = *channel.lit;
   if (!channel.lit) channel.closed.reset();
 }

@@ -28,6 +28,9 @@ core::Problem bad(const std::string& file, std::string what, std::string remedy)
 core::Result<Archive> opened(const std::string& bytes, const std::string& file) {
   if (bytes.size() > kMostArchive)
     return bad(file, "this archive is larger than 512 MB", "is it the right file?");
+  constexpr std::size_t kLeast = 22;  // an empty archive's end record
+  if (bytes.size() < kLeast)
+    return bad(file, "this is no whole zip archive: it is empty or cut short", "fetch it again");
   zip_error_t why;
   zip_error_init(&why);
   zip_source_t* source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, &why);

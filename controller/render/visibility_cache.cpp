@@ -48,15 +48,32 @@ struct Grid {
   core::Spherical placed;
   studio::Region region;
   Axis elevation, distance;
-  std::vector<Axis> azimuth;  ///< one per elevation
+  std::vector<Axis> azimuth;  ///< one per elevation; alone, along an arc or a track
+  std::optional<Dof> along;   ///< of a motor: the only way that the lamp moves
 };
 
-Grid grid(const studio::Fixture& fixture, GridSpacing spacing) {
+/// Metres of a track are as far apart as the grid's angle at the usual distance of a lamp.
+Grid motor_grid(Dof along, core::Range range, double step) {
   Grid out;
+  out.moves = true;
+  out.along = along;
+  out.elevation = out.distance = Axis{0, 0, 1};
+  out.azimuth = {axis(range, step)};
+  return out;
+}
+
+Grid grid(const studio::Fixture& fixture, GridSpacing spacing) {
+  constexpr double kUsualDistance = 1.8;
+  Grid out;
+  if (const auto* arc = std::get_if<studio::ArcMount>(&fixture.mount))
+    return motor_grid(Dof::arc, arc->angle, spacing.angle);
+  if (const auto* track = std::get_if<studio::TrackMount>(&fixture.mount))
+    return motor_grid(Dof::track, {0, 1},
+                      spacing.angle * kUsualDistance / core::distance(track->from, track->to));
   if (const auto* stand = std::get_if<studio::StandMount>(&fixture.mount)) {
-    out = {true, stand->at, stand->region, {}, {}, {}};
+    out = {true, stand->at, stand->region, {}, {}, {}, {}};
   } else if (const auto* free = std::get_if<studio::VirtualMount>(&fixture.mount)) {
-    out = {true, free->at, free->region, {}, {}, {}};
+    out = {true, free->at, free->region, {}, {}, {}, {}};
   } else {
     return out;
   }
@@ -221,6 +238,10 @@ struct VisibilityCache::State {
   core::FixtureState state_at(const Grid& g, const Corner& c) const {
     core::FixtureState state;
     if (!g.moves) return state;
+    if (g.along) {
+      state.set(*g.along, g.azimuth[0].at(c.azimuth));
+      return state;
+    }
     state.set(Dof::elevation, g.elevation.at(c.elevation));
     state.set(Dof::azimuth, g.azimuth[static_cast<std::size_t>(c.elevation)].at(c.azimuth));
     state.set(Dof::distance, std::exp(g.distance.at(c.distance)));
@@ -245,10 +266,13 @@ std::unique_ptr<const Visible> VisibilityCache::at(std::size_t fixture,
                                                    const core::FixtureState& state) const {
   const Grid& g = state_->grids[fixture];
   std::vector<Corner> around{{0, 0, 0, 1}};
-  if (g.moves)
+  if (g.along) {
+    around = corners(g, {state.get(*g.along, g.azimuth[0].least), 0, 1});
+  } else if (g.moves) {
     around = corners(g, {state.get(Dof::azimuth, g.placed.azimuth),
                          state.get(Dof::elevation, g.placed.elevation),
                          state.get(Dof::distance, g.placed.distance)});
+  }
   std::vector<PlacePointer> places;
   std::vector<float> weights;
   std::vector<State::Gap> gaps;

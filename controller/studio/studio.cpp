@@ -48,13 +48,17 @@ Rig placed_rig(const Studio& studio) {
     };
     if (const auto* stand = std::get_if<StandMount>(&fixture.mount)) stand_at(stand->at);
     if (const auto* free = std::get_if<VirtualMount>(&fixture.mount)) stand_at(free->at);
+    // A motor may be known to stand elsewhere than the file says.
+    const auto motor_at = [&](core::Dof dof, double at) {
+      if (!state.has(dof)) state.set(dof, at);
+    };
     if (const auto* head = std::get_if<PanTiltMount>(&fixture.mount)) {
-      state.set(core::Dof::pan, head->pan.clamp(0));
-      state.set(core::Dof::tilt, head->tilt.clamp(0));
+      motor_at(core::Dof::pan, head->pan.clamp(0));
+      motor_at(core::Dof::tilt, head->tilt.clamp(0));
     }
-    if (const auto* arc = std::get_if<ArcMount>(&fixture.mount)) state.set(core::Dof::arc, arc->at);
+    if (const auto* arc = std::get_if<ArcMount>(&fixture.mount)) motor_at(core::Dof::arc, arc->at);
     if (const auto* track = std::get_if<TrackMount>(&fixture.mount))
-      state.set(core::Dof::track, track->at);
+      motor_at(core::Dof::track, track->at);
     rig.states.push_back(state);
   }
   return rig;

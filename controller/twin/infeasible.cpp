@@ -31,7 +31,9 @@ struct Body {
 };
 
 bool can_move(const studio::Fixture& fixture) {
-  return std::holds_alternative<studio::StandMount>(fixture.mount);
+  return std::holds_alternative<studio::StandMount>(fixture.mount) ||
+         std::holds_alternative<studio::ArcMount>(fixture.mount) ||
+         std::holds_alternative<studio::TrackMount>(fixture.mount);
 }
 /// The thesis's free lamp is an idea: it has no body and hides nothing.
 bool has_body(const studio::Fixture& fixture) {

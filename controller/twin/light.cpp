@@ -37,8 +37,10 @@ Vec3 panned(const studio::PanTiltMount& mount, const core::FixtureState& state) 
           std::sin(elevation)};
 }
 
-Vec3 on_arc(const studio::ArcMount& mount, const core::AimFrame& aim) {
-  const double c = mount.radius * std::cos(mount.at), s = mount.radius * std::sin(mount.at);
+Vec3 on_arc(const studio::ArcMount& mount, const core::FixtureState& state,
+            const core::AimFrame& aim) {
+  const double angle = state.get(Dof::arc, mount.at);
+  const double c = mount.radius * std::cos(angle), s = mount.radius * std::sin(angle);
   return mount.vertical ? mount.centre + c * aim.towards_camera + Vec3{0, 0, s}
                         : mount.centre + c * aim.towards_camera + s * aim.camera_right;
 }
@@ -57,11 +59,11 @@ Pose pose(const studio::Fixture& fixture, const core::FixtureState& state,
              return {m.at, panned(m, state)};
            },
            [&](const studio::ArcMount& m) -> Pose {
-             const Vec3 at = on_arc(m, aim);
+             const Vec3 at = on_arc(m, state, aim);
              return {at, unit_or_down(aim.origin - at)};
            },
            [&](const studio::TrackMount& m) -> Pose {
-             const Vec3 at = m.from + m.at * (m.to - m.from);
+             const Vec3 at = m.from + state.get(Dof::track, m.at) * (m.to - m.from);
              return {at, unit_or_down(aim.origin - at)};
            }},
       fixture.mount);

@@ -57,6 +57,10 @@ const std::vector<Golden> kGolden{
     {"generic/rgbw", "6ch-dimmer",
      {{Dof::intensity, 0.8}, {Dof::red, 1}, {Dof::green, 0.6}, {Dof::blue, 0.2}, {Dof::white, 0.4}},
      {204, 255, 153, 51, 102, 0}},
+    // 6500 K is a quarter of 2000..20000: 63.75, and 16383.75 = 0x4000.
+    {"generic/tunable-panel", "2ch", {{Dof::intensity, 0.2}, {Dof::cct, 6500}}, {51, 64}},
+    {"generic/tunable-panel", "4ch-16bit", {{Dof::intensity, 0.2}, {Dof::cct, 6500}},
+     {0x33, 0x33, 0x40, 0x00}},
     // +135 of -270..270: 0.75 * 65535 = 49151.25 = 0xbfff; -67.5 of -135..135: 0.25 * 65535 =
     // 16383.75, 0x4000; zoom 25 of 10..40: 127.5; 25 kHz is the top of its range.
     {"generic/moving-head", "8ch",

@@ -21,6 +21,14 @@ panel::Refusal refusal_of(const core::Problems& problems) {
           first.remedy, problems};
 }
 
+/// The studio with its motors where `states` has them.
+void keep_motors(studio::Studio& studio, const std::vector<core::FixtureState>& states) {
+  using core::Dof;
+  for (std::size_t i = 0; i < std::min(states.size(), studio.fixtures.size()); ++i)
+    for (const Dof dof : {Dof::pan, Dof::tilt, Dof::arc, Dof::track})
+      if (states[i].has(dof)) studio.fixtures[i].initial.set(dof, states[i].get(dof));
+}
+
 core::Result<design::Goal> goal_of_picture(const std::string& bytes, const std::string& name,
                                            design::Objective objective) {
   auto picture = core::decode_picture(
@@ -64,6 +72,8 @@ DesignTask Brain::task_of(const panel::StartDesign& ask, design::Goal goal) cons
         std::find(ask.lock.begin(), ask.lock.end(), name) == ask.lock.end())
       task.options.locked.push_back(name);
   }
+  // Motors stand where the hand last sent them, not where the file has them at first.
+  if (sent_) keep_motors(task.studio, sent_->fixtures);
   // A locked lamp keeps the light that it gives now.
   for (const std::string& name : task.options.locked)
     if (const auto i = studio_.fixture_index(name); i && sent_ && *i < sent_->fixtures.size())
@@ -197,6 +207,7 @@ void Brain::solve_again(double fade_s) {
   }
   if (again_) again_->stop = true;
   DesignTask task = task_of(ask, std::move(*goal));
+  keep_motors(task.studio, live_->look.placed.states);
   again_ = task.board;
   planner_.add(std::move(task), [this, here = here_, board = again_, id = live_->record.id,
                                  fade_s](core::Result<Designed> result) {
