@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/studios.h"
 
+#include <algorithm>
+#include <chrono>
 #include <stdexcept>
 
 #include "controller/studio/load.h"
@@ -47,8 +49,23 @@ const rig::AllowedLevels& allow(rig::Governor& governor, const studio::Studio& s
   auto& hand = wanted.sources[static_cast<std::size_t>(rig::Source::manual)];
   hand.fixtures = states;
   hand.fade_id = ++fade;
+  // Axes travel at a person's leave and at their speed: time passes until they have arrived.
+  governor.arm_motion(true);
   governor.take(wanted, now);
-  return governor.step(now);
+  static ports::TimePoint later{};
+  later = std::max(later, now);
+  const rig::AllowedLevels* levels = &governor.step(later);
+  const auto arrived = [&] {
+    for (std::size_t i = 0; i < states.size(); ++i)
+      for (const core::Dof dof : {core::Dof::pan, core::Dof::tilt, core::Dof::arc, core::Dof::track})
+        if (states[i].has(dof) && levels->fixtures()[i].has(dof) &&
+            levels->fixtures()[i].get(dof) != states[i].get(dof))
+          return false;
+    return true;
+  };
+  for (int step = 0; step < 2000 && !arrived(); ++step)
+    levels = &governor.step(later += std::chrono::milliseconds(50));
+  return *levels;
 }
 
 }  // namespace chiaro::support
