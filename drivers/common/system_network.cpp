@@ -132,11 +132,17 @@ std::optional<ports::Network::Address> SystemNetwork::address_of(const std::stri
     if (interface.empty() ? loopback : interface != one->ifa_name) continue;
     found.emplace();
     found->own = text(one->ifa_addr);
-    // The loopback has no broadcast address of its own, but answers to that of its network.
-    found->broadcast = loopback ? "127.255.255.255"
-                       : (one->ifa_flags & IFF_BROADCAST) != 0 && one->ifa_broadaddr != nullptr
-                           ? text(one->ifa_broadaddr)
-                           : "255.255.255.255";
+    // The loopback has no broadcast address of its own, but answers to that of its network; an
+    // address that was set by hand often has none either. The mask always tells.
+    if (one->ifa_netmask != nullptr) {
+      const auto at = reinterpret_cast<const sockaddr_in*>(one->ifa_addr)->sin_addr.s_addr;
+      sockaddr_in all_of_them{};
+      all_of_them.sin_addr.s_addr =
+          at | ~reinterpret_cast<const sockaddr_in*>(one->ifa_netmask)->sin_addr.s_addr;
+      found->broadcast = text(reinterpret_cast<const sockaddr*>(&all_of_them));
+    } else {
+      found->broadcast = "255.255.255.255";
+    }
     name = one->ifa_name;
   }
   for (const ifaddrs* one = all; one != nullptr && found; one = one->ifa_next)
