@@ -5,10 +5,12 @@
 #include <deque>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include "controller/core/picture_file.h"
+#include "controller/render/bounce.h"
 #include "controller/render/lighting.h"
 #include "controller/render/samples.h"
 #include "controller/render/visibility_cache.h"
@@ -23,6 +25,10 @@ struct Twin {
   std::shared_ptr<const twin::Geometry> geometry;
   std::shared_ptr<const render::Tracer> tracer;
   double gain = 1;
+  bool bounced = false;
+  /// Null when only the lamps' own light counts.
+  std::shared_ptr<const render::BounceField> bounces;
+  std::shared_ptr<const render::BounceCache> bounce_cache;
   core::Picture measured_ambient;  ///< empty unless the studio has one
 };
 
@@ -57,7 +63,9 @@ class GeometricLayers : public Layers {
         view_(render::see(twin.tracer, twin.studio.main_camera(), size)),
         planes_(core::planes(view_.buffer)),
         cache_(view_, twin.studio, twin.options.visibility_cache_bytes, spacing_for(size)),
-        ambient_(make_ambient()) {}
+        ambient_(make_ambient()) {
+    if (twin.bounces) bounce_map_.emplace(*twin.bounces, view_);
+  }
 
   core::Size size() const override { return view_.buffer.size; }
   const core::GeometryPlanes* geometry() const override { return &planes_; }
@@ -67,6 +75,7 @@ class GeometricLayers : public Layers {
                  core::Plane& out) const override {
     with_visible(fixture, state, accuracy, [&](const twin::Light& light, const auto& visible) {
       render::luminance(view_, light, twin_.gain, &visible, out, shading(accuracy));
+      add_bounced(fixture, state, light, accuracy, out);
     });
   }
 
@@ -75,6 +84,7 @@ class GeometricLayers : public Layers {
                                 core::Plane& seen) const override {
     with_visible(fixture, state, accuracy, [&](const twin::Light& light, const auto& visible) {
       render::luminance(view_, light, twin_.gain, &visible, out, shading(accuracy), &seen);
+      add_bounced(fixture, state, light, accuracy, out);
     });
   }
 
@@ -82,6 +92,9 @@ class GeometricLayers : public Layers {
               core::Layer& out) const override {
     with_visible(fixture, state, accuracy, [&](const twin::Light& light, const auto& visible) {
       render::colour(view_, light, twin_.gain, &visible, out, shading(accuracy));
+      if (bounce_map_)
+        bounce_map_->add_colour(bounced(fixture, state, light, accuracy), light.colour, twin_.gain,
+                                out.diffuse);
     });
   }
 
@@ -108,6 +121,19 @@ class GeometricLayers : public Layers {
   twin::Light light(std::size_t fixture, const core::FixtureState& state) const {
     return twin::light(twin_.studio.fixtures[fixture], state, twin_.geometry->aim,
                        twin_.studio.exposure.white_balance);
+  }
+
+  render::Bounced bounced(std::size_t fixture, const core::FixtureState& state,
+                          const twin::Light& light, Accuracy accuracy) const {
+    return accuracy == Accuracy::exact ? twin_.bounces->from(light)
+                                       : twin_.bounce_cache->at(fixture, state);
+  }
+
+  void add_bounced(std::size_t fixture, const core::FixtureState& state, const twin::Light& light,
+                   Accuracy accuracy, core::Plane& out) const {
+    if (bounce_map_)
+      bounce_map_->add_luminance(bounced(fixture, state, light, accuracy), light.colour, twin_.gain,
+                                 out);
   }
 
   template <class F>
@@ -181,6 +207,7 @@ class GeometricLayers : public Layers {
   core::GeometryPlanes planes_;
   render::VisibilityCache cache_;
   core::Picture ambient_;
+  std::optional<render::BounceMap> bounce_map_;
   static constexpr std::size_t kRemembered = 16;
   mutable std::mutex recent_mutex_;
   mutable std::deque<
@@ -239,7 +266,16 @@ std::unique_ptr<Layers> GeometricLayers::with_skin(core::Rgb diffuse) const {
 class GeometricSource : public LayersSource {
  public:
   explicit GeometricSource(Twin twin)
-      : twin_(std::move(twin)), arena_(std::max(1, twin_.options.threads)) {}
+      : twin_(std::move(twin)), arena_(std::max(1, twin_.options.threads)) {
+    if (!twin_.bounced) return;
+    arena_.execute([&] {
+      twin_.bounces =
+          std::make_shared<render::BounceField>(twin_.tracer, twin_.studio.main_camera());
+    });
+    // Refers to the studio of this very object.
+    twin_.bounce_cache =
+        std::make_shared<render::BounceCache>(*twin_.bounces, twin_.studio, twin_.geometry->aim);
+  }
 
   const Layers& at(core::Size size) const override {
     const std::lock_guard lock(mutex_);
@@ -268,13 +304,16 @@ core::Result<core::Picture> read_linear(const std::filesystem::path& file) {
 
 }  // namespace
 
-core::Result<std::unique_ptr<LayersSource>> geometric_layers(const studio::Studio& studio,
-                                                             const GeometricOptions& options) {
+namespace {
+
+core::Result<std::unique_ptr<LayersSource>> made(const studio::Studio& studio,
+                                                 const GeometricOptions& options, bool bounced) {
   if (studio.cameras.empty())
     return core::Problem{{studio.file.string(), 0, 0}, "the studio has no camera", "add one: main"};
   Twin twin;
   twin.studio = studio;
   twin.options = options;
+  twin.bounced = bounced;
   auto geometry = twin::build_geometry(studio, options.mesh_cache);
   if (!geometry) return geometry.problems();
   twin.geometry = *geometry;
@@ -287,6 +326,17 @@ core::Result<std::unique_ptr<LayersSource>> geometric_layers(const studio::Studi
   arena.execute([&] { twin.tracer = std::make_shared<const render::Tracer>(twin.geometry); });
   twin.gain = studio::exposure_gain(studio.exposure, studio.main_camera());
   return std::unique_ptr<LayersSource>(std::make_unique<GeometricSource>(std::move(twin)));
+}
+
+}  // namespace
+
+core::Result<std::unique_ptr<LayersSource>> geometric_layers(const studio::Studio& studio,
+                                                             const GeometricOptions& options) {
+  return made(studio, options, false);
+}
+core::Result<std::unique_ptr<LayersSource>> bounced_layers(const studio::Studio& studio,
+                                                           const GeometricOptions& options) {
+  return made(studio, options, true);
 }
 
 std::shared_ptr<const render::Tracer> tracer_of(const LayersSource& source) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The geometric twin's side of `Layers`: nothing but what tests and benches need beyond layers.h.
+// The geometric twin's side of `Layers`, beyond what every caller sees in layers.h.
 #pragma once
 
 #include "controller/design/layers.h"
@@ -7,6 +7,11 @@
 #include "controller/twin/scene.h"
 
 namespace chiaro::design {
+
+/// As geometric_layers, with the light that comes by way of other surfaces: what a camera in a room
+/// sees. What designs for real studios are made with.
+core::Result<std::unique_ptr<LayersSource>> bounced_layers(const studio::Studio& studio,
+                                                           const GeometricOptions& options);
 
 /// The tracer of a source made by geometric_layers, for a picture at any size or another camera.
 /// Null for any other source.

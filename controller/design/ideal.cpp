@@ -10,6 +10,7 @@ namespace chiaro::design {
 namespace {
 
 constexpr int kElevations = 9, kHalfStops = 14;
+// Above and behind, never at the middle of the vertices, where the thesis begins [I-24].
 const core::Range kBackElevations{core::radians(30), core::radians(70)};
 // A count over one threshold is soon full and says no more: edges that stand out clearly, and those
 // that glow as a rim does, count again.

@@ -15,6 +15,7 @@ double between(core::Range range, int step, int steps) {
   return range.least + range.width() * (step + 0.5) / steps;
 }
 
+/// Every number of a place is free, or fixed where its range has no width [I-1].
 void add_placement(Variables& variables, std::size_t fixture, const studio::Region& region) {
   const auto add = [&](core::Dof dof, core::Range range) {
     if (range.width() > 0) variables.moving.push_back({fixture, dof, range});
@@ -117,6 +118,7 @@ const studio::Region* region_of(const studio::Fixture& fixture) {
   return nullptr;
 }
 
+/// All lamps jointly, however many there are [I-3].
 Variables variables_of(const studio::Studio& studio, const Options& options) {
   Variables variables;
   variables.base = options.start ? *options.start : studio::placed_rig(studio);

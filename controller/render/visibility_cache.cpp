@@ -17,6 +17,7 @@
 #include "controller/render/work.h"
 #include "controller/twin/lights/light_model.h"
 
+// Relighting at interactive rates by remembering what each place of a lamp can see [I-38].
 namespace chiaro::render {
 namespace {
 

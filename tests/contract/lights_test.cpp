@@ -77,6 +77,7 @@ TEST_P(Lights, AreLinearInTheirCandela) {
   EXPECT_NEAR(GetParam().specular(light, at, normal, viewer, 24), 7 * s, 1e-9 * s);
 }
 
+// [I-2]
 TEST_P(Lights, FallWithDistanceAsTheirLawSays) {
   if (GetParam().parallel) return;  // it comes from everywhere alike
   const std::pair<Optic::Attenuation, double> laws[] = {{Optic::Attenuation::inverse_square, 2},

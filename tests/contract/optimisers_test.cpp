@@ -98,6 +98,7 @@ TEST_P(EveryOptimiser, SameSeedSameAnswerForAnyNumberOfThreads) {
   EXPECT_NE(run(task).best, alone.best);
 }
 
+// [I-25..I-27]
 TEST_P(EveryOptimiser, FindsTheBottomOfABowl) {
   const Outcome outcome = run(task_of(sphere, 3, -1, 2, 3000));
   EXPECT_LT(outcome.value, GetParam().name == "genetic" ? 1e-2 : 1e-4);

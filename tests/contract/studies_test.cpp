@@ -29,6 +29,7 @@ class EveryStudy : public testing::TestWithParam<Study> {
   support::FakeWorld world_{clock_, network_, folder_.path()};
 };
 
+// [I-28, I-30, I-35, I-39..I-41]
 TEST_P(EveryStudy, RunsAtItsSmallestAndWritesWhatItPromises) {
   const std::string name(GetParam().name);
   const std::string out = (folder_.path() / "out").string();

@@ -63,6 +63,7 @@ TEST_P(EveryTerm, SurvivesTargetsOfZero) {
   EXPECT_TRUE(std::isfinite(GetParam().ideal(any_components(3), {0, 0, 0, 0}, {})));
 }
 
+// [I-11, I-12]
 TEST_P(EveryTerm, ItsWeightAloneDecidesItsShare) {
   const Components now = any_components(1);
   const Targets goal = targets_of(any_components(2), true);

@@ -42,6 +42,7 @@ TEST(LightnessGolden, KnowsTheAnchorsOfTheCieCurve) {
   for (std::size_t i = 0; i < 7; ++i) EXPECT_NEAR(out.values[i], wanted[i], 0.01) << i;
 }
 
+// [I-14]
 TEST(SobelGolden, AnswersOneForARampOfOneGreyLevelPerPixel) {
   // Columns 0 1 2 3. Inside: gx = (2-0) + 2 (2-0) + (2-0) = 8, gy = 0, |G| / 8 = 1.
   // At the left border 0 repeats: gx = 4 * (1 - 0) = 4, |G| / 8 = 0.5.
@@ -59,6 +60,7 @@ TEST(SobelGolden, TakesTheLengthOfBothDirections) {
   EXPECT_NEAR(g.at(1, 1), 4.24264, 1e-5);
 }
 
+// [I-15]
 TEST(LaplacianGolden, IsZeroOnEveryRampAndTheHeightOfASpike) {
   // Ramp x + 2 y inside: the eight neighbours average the centre. A spike of 8 on 0: (8*8 - 0) / 8
   // = 8; beside it (0 - 8) / 8 = -1. As printed (two wrong signs) a flat 8 would answer 4, not 0.
@@ -76,6 +78,7 @@ const std::vector<float> kPicture{10, 10, 50, 50,  //
                                   10, 10, 90, 90,  //
                                   10, 10, 90, 90};
 
+// [I-17, I-18]
 TEST(ComponentsGolden, MeanAndDeviationOverAllPixelsOfAFlatMap) {
   // Mean = (8*10 + 4*50 + 4*90) / 16 = 640 / 16 = 40. Variance = (8*900 + 4*100 + 4*2500) / 16 =
   // 17600 / 16 = 1100, its root 33.16625.
@@ -86,6 +89,7 @@ TEST(ComponentsGolden, MeanAndDeviationOverAllPixelsOfAFlatMap) {
   EXPECT_EQ(c.contrast, 0);
 }
 
+// [I-19]
 TEST(ComponentsGolden, HistogramHoldsShares) {
   const Components c = components(four(kPicture), flat_pixel_map({4, 4}));
   EXPECT_DOUBLE_EQ(c.histogram[10], 0.5);
@@ -102,6 +106,7 @@ TEST(ComponentsGolden, HistogramRoundsToTheNearestLevelAndSkipsBackground) {
   EXPECT_DOUBLE_EQ(c.histogram[7], 0);
 }
 
+// [I-16]
 TEST(ComponentsGolden, GradientIsTheRootMeanSquareOverSurfacePixels) {
   // Columns 0 8 16 24 of 4 equal rows: |G| = 8 inside, 4 at both borders. Mean square = (2*64 +
   // 2*16) / 4 = 40, its root 6.32456. (A plain average would give 6.)
@@ -110,6 +115,7 @@ TEST(ComponentsGolden, GradientIsTheRootMeanSquareOverSurfacePixels) {
   EXPECT_NEAR(c.gradient, 6.32456, 1e-5);
 }
 
+// [I-23]
 TEST(ComponentsGolden, ShadowPixelsWeighByHowMuchOfTheLampTheySee) {
   // Values 100 200, lit 1 and 0.5: mean = (100 + 0.5 * 200) / 1.5 = 133.3333;
   // variance = (1 * 33.333^2 + 0.5 * 66.667^2) / 1.5 = (1111.11 + 2222.22) / 1.5 = 2222.22,
@@ -131,6 +137,7 @@ TEST(ComponentsGolden, EdgeIsTheShareOfEdgePixelsThatShow) {
   EXPECT_NEAR(components(values, map, &lit).edge, 1.0 / 3, 1e-6);
 }
 
+// [I-20]
 TEST(ComponentsGolden, ContrastIsMichelsonsOverRowsAndColumns) {
   // One row: parts mean (10 + 30) / 2 = 20 and (70 + 90) / 2 = 80 meet across one edge pixel whose
   // own value does not matter: |20 - 80| / 100 = 0.6.
@@ -157,6 +164,7 @@ TEST(ComponentsGolden, ContrastAveragesOverAllMeetings) {
               0.25, 1e-6);
 }
 
+// [I-31, I-32, I-34]
 TEST(HaarGolden, FourByFourByHand) {
   // 2 x 2 squares of kPicture are constant (10, 50; 10, 90): every finest coefficient is 0.
   // Level 0: left mean 10, right (50 + 90) / 2 = 70: h = -60. Upper (10 + 50) / 2 = 30, lower
@@ -172,6 +180,7 @@ TEST(HaarGolden, FourByFourByHand) {
   }
 }
 
+// [I-32]
 TEST(HaarGolden, AntiDiagonalRampIsNotNothing) {
   // x - y: left half minus right = -2, upper minus lower = +2 at level 0; at level 1 -1 and +1.
   // Printed form: h + v = 0 everywhere. Ours: mean square per level 4 and 1, mean 0, three equal
@@ -203,6 +212,7 @@ TEST(HaarGolden, EightByEightOfOneBrightQuadrant) {
   EXPECT_NEAR(haar_distance_as_printed(s, black), 80.0 / 21, 1e-6);
 }
 
+// [I-33]
 TEST(HaarGolden, AConstantIsFeltByOursAndNotByThePrintedForm) {
   // Everything 10 brighter: the mean differs by 10, 1 of 3 equal weights: sqrt(100 / 3) = 5.7735.
   const HaarSpectrum a = haar_spectrum(four(kPicture), 4);
@@ -213,6 +223,7 @@ TEST(HaarGolden, AConstantIsFeltByOursAndNotByThePrintedForm) {
   EXPECT_EQ(haar_distance_as_printed(a, b), 0);
 }
 
+// [I-29]
 TEST(TermsGolden, ByExampleCosts) {
   Components now, goal;
   now.edge = 0.4, goal.edge = 0.7;          // |0.4 - 0.7| = 0.3
@@ -227,6 +238,7 @@ TEST(TermsGolden, ByExampleCosts) {
   EXPECT_NEAR(perceptual_cost(now, targets_of(goal, false)), 0.7558065, 1e-6);
 }
 
+// [I-13]
 TEST(TermsGolden, IdealCosts) {
   Components now;
   now.edge = 0.75;       // 1 - 0.75 = 0.25

@@ -2,6 +2,7 @@
 #include "controller/daemon/brain/planner.h"
 
 #include "controller/core/picture_file.h"
+#include "controller/design/geometric_layers.h"
 
 namespace chiaro::daemon {
 namespace {
@@ -51,7 +52,7 @@ void Planner::prepare(const studio::Studio& studio, const std::filesystem::path&
     options.mesh_cache = mesh_cache;
     options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     auto made = guarded([&]() -> core::Result<std::unique_ptr<design::LayersSource>> {
-      auto layers = design::geometric_layers(studio, options);
+      auto layers = design::bounced_layers(studio, options);
       if (!layers) return layers;
       const design::Options sizes;
       (*layers)->at(sizes.search_size);

@@ -12,6 +12,8 @@
 #include "controller/core/picture_file.h"
 #include "controller/daemon/command.h"
 #include "controller/daemon/problems.h"
+#include "controller/design/blend.h"
+#include "controller/design/geometric_layers.h"
 #include "controller/design/moods.h"
 #include "controller/design/words.h"
 #include "controller/studio/load.h"
@@ -22,7 +24,7 @@ namespace {
 /// As typed.
 struct Asked {
   std::string studio, mood, exemplar, targets, goal = "wavelet", optimiser, exposure = "locked";
-  std::string align = "none", out, picture, budget;
+  std::string align = "none", out, picture, budget, blend;
   std::vector<std::string> lock;
   std::uint64_t seed = 1, trials = 0;
   int threads = 0;
@@ -75,7 +77,7 @@ class ProgressLine {
   std::string stage_;
 };
 
-core::Result<design::Goal> mood_goal(const Asked& asked, const studio::Folders& folders,
+core::Result<design::Goal> mood_goal(const std::string& wanted, const studio::Folders& folders,
                                      design::Objective objective, ports::World& world) {
   const design::Moods moods = design::load_moods(folders.moods());
   std::vector<std::string> names;
@@ -83,18 +85,51 @@ core::Result<design::Goal> mood_goal(const Asked& asked, const studio::Folders& 
   for (const design::Mood& mood : moods.moods) {
     names.push_back(mood.name);
     list += (list.empty() ? "" : ", ") + mood.name;
-    if (mood.name != asked.mood) continue;
+    if (mood.name != wanted) continue;
     auto goal = design::goal_of(mood, objective);
     if (!goal) return goal.problems();
     return design::Goal(*std::move(goal));
   }
   for (const core::Problem& problem : moods.problems) world.err << core::to_string(problem) << "\n";
-  const std::string near = core::nearest_name(asked.mood, names);
+  const std::string near = core::nearest_name(wanted, names);
   return core::Problem{{},
-                       "no mood is called \"" + asked.mood + "\"",
+                       "no mood is called \"" + wanted + "\"",
                        list.empty() ? "there are none in " + folders.moods().string()
                                     : (near.empty() ? "" : "did you mean \"" + near + "\"? ") +
                                           "there are: " + list};
+}
+
+core::Result<design::Goal> picture_goal(const std::string& file, design::Objective objective) {
+  auto picture = core::read_picture(file);
+  if (!picture) return picture.problems();
+  design::ExampleGoal goal;
+  goal.name = std::filesystem::path(file).stem().string();
+  goal.exemplar = core::linear(*picture);
+  goal.objective = objective;
+  return design::Goal(std::move(goal));
+}
+
+/// "0.4" of "other=0.4"; nothing when that is not a share.
+std::optional<double> share_of(const std::string& blend) {
+  const std::size_t equals = blend.rfind('=');
+  if (equals == std::string::npos || equals == 0) return std::nullopt;
+  double share = 0;
+  char rest = 0;
+  if (std::sscanf(blend.c_str() + equals + 1, "%lf%c", &share, &rest) != 1) return std::nullopt;
+  return share >= 0 && share <= 1 ? std::optional(share) : std::nullopt;
+}
+
+/// The goal on the way to a second exemplar: a mood by name, else a picture file.
+core::Result<design::Goal> blended_goal(const design::Goal& from, const Asked& asked,
+                                        const studio::Folders& folders, design::Objective objective,
+                                        ports::World& world) {
+  const std::string other = asked.blend.substr(0, asked.blend.rfind('='));
+  auto to = std::filesystem::exists(other) ? picture_goal(other, objective)
+                                           : mood_goal(other, folders, objective, world);
+  if (!to) return to.problems();
+  return design::Goal(design::blended(std::get<design::ExampleGoal>(from),
+                                      std::get<design::ExampleGoal>(*to),
+                                      share_of(asked.blend).value_or(0)));
 }
 
 core::Result<design::Goal> goal_from(const Asked& asked, const studio::Folders& folders,
@@ -102,19 +137,15 @@ core::Result<design::Goal> goal_from(const Asked& asked, const studio::Folders& 
   if (asked.ideal) return design::Goal(design::IdealGoal{});
   const design::Objective objective =
       asked.goal == "perceptual" ? design::Objective::perceptual : design::Objective::wavelet;
-  if (!asked.mood.empty()) return mood_goal(asked, folders, objective, world);
-  auto picture = core::read_picture(asked.exemplar);
-  if (!picture) return picture.problems();
-  design::ExampleGoal goal;
-  goal.name = std::filesystem::path(asked.exemplar).stem().string();
-  goal.exemplar = core::linear(*picture);
-  goal.objective = objective;
-  if (!asked.targets.empty()) {
+  auto goal = asked.mood.empty() ? picture_goal(asked.exemplar, objective)
+                                 : mood_goal(asked.mood, folders, objective, world);
+  if (goal && !asked.targets.empty()) {
     auto targets = design::load_targets(asked.targets);
     if (!targets) return targets.problems();
-    goal.targets3d = *targets;
+    std::get<design::ExampleGoal>(*goal).targets3d = *targets;
   }
-  return design::Goal(std::move(goal));
+  if (!goal || asked.blend.empty()) return goal;
+  return blended_goal(*goal, asked, folders, objective, world);
 }
 
 std::optional<double> budget_seconds(const std::string& text) {
@@ -224,7 +255,7 @@ ports::Exit run_design(const Asked& asked, ports::World& world, bool json) {
   geometric.mesh_cache = world.state_folder / "meshes";
   geometric.reference = asked.reference;
   geometric.threads = options.threads;
-  auto twin = design::geometric_layers(loaded->studio, geometric);
+  auto twin = design::bounced_layers(loaded->studio, geometric);
   if (!twin) return refuse(twin.problems(), world, json);
   core::Result<design::Look> look = design::design(loaded->studio, **twin, *goal, options);
   line.clear();
@@ -244,6 +275,13 @@ void add_options(CLI::App& verb, Asked& asked) {
   verb.add_option("--targets", asked.targets, "edge and contrast targets of a 3D exemplar (YAML)")
       ->check(CLI::ExistingFile)
       ->needs("--exemplar");
+  verb.add_option("--blend", asked.blend,
+                  "part of the way to another mood or picture, as in split=0.4")
+      ->excludes("--ideal")
+      ->check([](const std::string& text) {
+        return share_of(text) ? std::string()
+                              : "\"" + text + "\" is not a name and a share such as split=0.4";
+      });
   verb.add_option("--optimiser", asked.optimiser, "how places are searched (default sbplx)");
   verb.add_option("--seed", asked.seed, "same seed and trials, same look (default 1)");
   auto* trials = verb.add_option("--trials", asked.trials, "how many places to try");

@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "controller/daemon/study/shapes.h"
+#include "controller/design/geometric_layers.h"
 #include "controller/studio/load.h"
 #include "simulator/bust/bust_mesh.h"
 #include "simulator/path_tracer/path_tracer.h"
@@ -230,11 +231,13 @@ studio::Rig hidden_rig(const studio::Studio& studio, const twin::Geometry& geome
 }
 
 core::Result<std::unique_ptr<design::LayersSource>> twin_of(const studio::Studio& studio,
-                                                            ports::World& world, int threads) {
+                                                            ports::World& world, int threads,
+                                                            bool bounced) {
   design::GeometricOptions options;
   options.mesh_cache = world.state_folder / "meshes";
   options.threads = threads;
-  return design::geometric_layers(studio, options);
+  return bounced ? design::bounced_layers(studio, options)
+                 : design::geometric_layers(studio, options);
 }
 
 design::Options plain_options(std::uint64_t seed, int threads, ports::World& world) {

@@ -36,10 +36,10 @@ core::Result<studio::Studio> scene(std::string_view name, const Lamps& lamps, po
 struct Errors {
   double albedo = 0.10;               ///< each material and channel, uniform within +-
   double normals = core::radians(5);  ///< root mean square, varying smoothly over the subject
-  int bounces = 5;                    ///< of light between surfaces; the twin knows none
+  int bounces = 5;                    ///< of light between surfaces; the twin has them coarsely
   bool noise = true;                  ///< of the sensor
 };
-inline constexpr Errors kNoErrors{0, 0, 0, false};
+inline constexpr Errors kNoErrors{0, 0, 5, false};
 
 struct Reality {
   std::shared_ptr<const render::Tracer> tracer;
@@ -68,9 +68,11 @@ studio::Rig hidden_rig(const studio::Studio& studio, const twin::Geometry& geome
 core::Vec3 direction_of(const core::FixtureState& state);
 double lux_of(const studio::Fixture& fixture, const core::FixtureState& state);
 
-/// The twin that designs use, with the world's mesh cache.
+/// The twin that designs use, with the world's mesh cache. `bounced` false: it knows the lamps' own
+/// light alone.
 core::Result<std::unique_ptr<design::LayersSource>> twin_of(const studio::Studio& studio,
-                                                            ports::World& world, int threads);
+                                                            ports::World& world, int threads,
+                                                            bool bounced = true);
 /// Options as the thesis lights: the exemplar as it is, neither aligned nor normalised.
 design::Options plain_options(std::uint64_t seed, int threads, ports::World& world);
 

@@ -35,6 +35,7 @@ double spanned_difference(double now, double wanted, double most) {
 
 }  // namespace terms
 
+/// The objective of the thesis, all six terms [I-11].
 double perceptual_cost(const Components& now, const Targets& wanted, const TermWeights& weights) {
   double sum = 0;
   for (const terms::Term& term : terms::all())

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+// Lamp types and how their light falls with distance [I-2].
 namespace chiaro::twin {
 
 #define LIGHT(name, summary) LightModel name##_light();

@@ -26,6 +26,7 @@ TEST(Srgb, ClipsOutsideAndInvertsInside) {
     EXPECT_NEAR(srgb_encoded(srgb_linear(i / 1000.0)), i / 1000.0, 1e-4) << i;
 }
 
+// [I-22]
 TEST(Lightness, ValuesOfCie1976) {
   EXPECT_NEAR(lightness(1), 100, 1e-9);
   EXPECT_NEAR(lightness(0.18), 49.4961, 1e-4);
@@ -58,6 +59,7 @@ TEST(Lab, OfThePrimariesAndGreys) {
   }
 }
 
+// [I-21]
 TEST(Xyz, InvertsToRgb) {
   const Rgb there{0.2, 0.5, 0.8};
   const Rgb back = rgb_of(xyz_of(there));

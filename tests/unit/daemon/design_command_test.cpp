@@ -83,6 +83,9 @@ TEST_F(DesignCommand, UsageFaultsAreUsageFaults) {
   EXPECT_EQ(run({"--ideal", "--budget", "2"}), ports::Exit::usage);
   EXPECT_EQ(run({"--ideal", "--budget", "2s", "--trials", "4"}), ports::Exit::usage);
   EXPECT_EQ(run({"--ideal", "--goal", "nice"}), ports::Exit::usage);
+  EXPECT_EQ(run({"--mood", "split", "--blend", "loop"}), ports::Exit::usage);
+  EXPECT_EQ(run({"--mood", "split", "--blend", "loop=1.5"}), ports::Exit::usage);
+  EXPECT_EQ(run({"--ideal", "--blend", "loop=0.5"}), ports::Exit::usage);
 }
 
 TEST_F(DesignCommand, AnExemplarThatIsNoPictureIsRefused) {

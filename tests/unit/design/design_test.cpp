@@ -49,6 +49,7 @@ Look designed(const studio::Studio& studio, const Goal& goal, const Options& opt
   return look ? *look : Look{};
 }
 
+// [I-3, I-38]
 TEST(Design, FindsTwoHiddenLampsFromTheirPictureAlone) {
   const studio::Studio studio = two_lamps();
   const studio::Rig hidden = hidden_two(studio);

@@ -131,6 +131,7 @@ TEST_F(Geometric, ManyThreadsMayAskAtOnceForSizesAndLayers) {
   for (std::size_t k = 2; k < sums.size(); ++k) EXPECT_EQ(sums[k], sums[k % 2]);
 }
 
+// [I-6, I-7]
 TEST_F(Geometric, GeometryShowsTheSubjectBeforeTheBackground) {
   const auto twin = source();
   const core::GeometryPlanes& planes = *twin->at({64, 64}).geometry();

@@ -51,6 +51,7 @@ TEST(IdealStages, StageTwoTouchesOnlyTheBackLight) {
   EXPECT_NE(after.states[2], stage.rig.states[2]);
 }
 
+// [I-24]
 TEST(IdealStages, BackLightStaysBehindAndWithinItsElevations) {
   Stage stage;
   const studio::Rig after = with_back_lights(stage.setting, stage.rig, true);
@@ -61,6 +62,7 @@ TEST(IdealStages, BackLightStaysBehindAndWithinItsElevations) {
   EXPECT_TRUE(elevation >= 29.9 && elevation <= 70.1) << elevation;
 }
 
+// [I-24]
 TEST(IdealStages, BackLightShowsMoreOfTheOuterSilhouette) {
   Stage stage;
   const auto silhouette = silhouette_of(stage.map);
@@ -104,6 +106,7 @@ TEST(IdealStages, StageOneHasOnlyTheLampsThatFaceTheSubject) {
   EXPECT_EQ(shape.moving.size(), 6u);
 }
 
+// [I-13]
 TEST(IdealStages, AttainableTargetsAreAboveWhatAnyLitPictureOfTheKeyShows) {
   Stage stage;
   const auto most = attainable_targets(stage.setting);
@@ -127,6 +130,7 @@ TEST(IdealDesign, LightsTheShapeWithoutAnExemplar) {
   EXPECT_EQ(look->goal, "ideal");
 }
 
+// [I-5]
 TEST(IdealDesign, KeepsTheKeyInFrontAndAbove) {
   const studio::Studio studio = four_lamps();
   const Variables all = variables_of(studio, {});

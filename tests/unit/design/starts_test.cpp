@@ -8,6 +8,7 @@
 namespace chiaro::design {
 namespace {
 
+// [I-10]
 TEST(Starts, FacingDirectionsOfABallLookAtTheCameraAndAside) {
   const studio::Studio studio = support::analytic_studio();
   const support::AnalyticLayers layers(studio, {64, 64});
@@ -27,6 +28,7 @@ TEST(Starts, FacingDirectionsOfNothingAreNone) {
   EXPECT_TRUE(facing_directions(empty, 3).empty());
 }
 
+// [I-1]
 TEST(Variables, AreTheStandsPlacementsInOrderWithTheirRegions) {
   studio::Studio studio = support::analytic_studio();
   studio.fixtures = {support::fixed_lamp("wall", studio::Role::background, {0, 0.9, 0.2}, 800),

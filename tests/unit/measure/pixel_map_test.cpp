@@ -65,6 +65,7 @@ TEST(PixelMap, APlaneSeenAtAGrazingAngleHasNoEdges) {
   EXPECT_EQ(map.edges, map.externals);
 }
 
+// [I-8, I-6]
 TEST(PixelMap, NormalsAndObjectIdsMakeEdgesWhereDepthDoesNot) {
   auto p = square_before_wall(16, 2, 14);
   for (int y = 2; y < 14; ++y)
@@ -106,6 +107,7 @@ TEST(PixelMap, ContrastMeetsTheWallOnBothSidesOfEveryRowAndColumn) {
   EXPECT_EQ(pixel_map(square_before_wall(12, 3, 9)).index.crossings.size(), 4u * 2 + 4u * 2);
 }
 
+// [I-9]
 TEST(LitMask, FollowsTheRule) {
   core::Plane key({2, 1}), fill({2, 1});
   key.values = {1, 0.2f};

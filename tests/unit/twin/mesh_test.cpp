@@ -114,6 +114,7 @@ TEST_F(MeshFile, DuplicatePointsAreWeldedAndUselessTrianglesDropped) {
   EXPECT_EQ(mesh->positions.size(), 12u);
 }
 
+// [I-4]
 TEST_F(MeshFile, BigEndianAndAsciiPlyEqualLittleEndian) {
   const std::string header =
       "element vertex 3\nproperty double x\nproperty float y\nproperty short z\n"
