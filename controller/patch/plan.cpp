@@ -85,8 +85,10 @@ Plan Plan::of(const studio::Studio& studio, core::Problems* warnings) {
         modbus != nullptr && warnings != nullptr)
       warnings->push_back({fixture.place,
                            "fixture '" + fixture.name + "' is patched to Modbus bus '" +
-                               modbus->bus + "', for which there is no driver yet",
-                           "set it by hand, or patch it to a DMX universe", true});
+                               modbus->bus + "' directly, which sends nothing",
+                           "give the device a universe of its own, {universe 9: {modbus: {bus: " +
+                               modbus->bus + ", unit: 1, map: …}}}, and patch it there",
+                           true});
   }
   return plan;
 }
@@ -158,7 +160,8 @@ namespace {
 template <class Slot>
 void write(const Slot& slot, std::uint32_t raw, ports::DmxFrame& frame) {
   for (unsigned i = 0; i < slot.bytes; ++i)
-    frame.levels[slot.at[i]] = static_cast<std::uint8_t>(raw >> (8u * (slot.bytes - 1u - i)) & 0xffu);
+    frame.levels[slot.at[i]] =
+        static_cast<std::uint8_t>(raw >> (8u * (slot.bytes - 1u - i)) & 0xffu);
 }
 template <class Slot>
 double read_fraction(const Slot& slot, const ports::DmxFrame& frame) {
@@ -171,8 +174,7 @@ double read_fraction(const Slot& slot, const ports::DmxFrame& frame) {
 
 /// What the channel must mean: a drive for light, else the DOF's own value.
 double Plan::meaning(const Slot& slot, const FixtureState& state) const {
-  if (slot.law == Law::level)
-    return drive_of_light(curves_[slot.curve], state.get(Dof::intensity));
+  if (slot.law == Law::level) return drive_of_light(curves_[slot.curve], state.get(Dof::intensity));
   if (slot.law == Law::dimmed_drive)
     return drive_of_light(curves_[slot.curve], state.get(slot.dof) * state.get(Dof::intensity));
   return state.get(slot.dof);
@@ -184,7 +186,8 @@ void Plan::put(const Slot& slot, const FixtureState& state, ports::DmxFrame& fra
   if (slot.law == Law::by_hand) return;
   if (slot.law == Law::segments && !state.has(slot.dof)) return write(slot, slot.constant, frame);
   const double wanted = meaning(slot, state);
-  if (slot.trim < 0) return write(slot, raw_of(fraction_of(slot.segments, wanted), slot.bytes), frame);
+  if (slot.trim < 0)
+    return write(slot, raw_of(fraction_of(slot.segments, wanted), slot.bytes), frame);
   const Slot& trim = slots_[static_cast<std::size_t>(slot.trim)];
   const auto [coarse, fine] =
       coarse_and_trim(wanted, slot.segments, slot.bytes, trim.segments, trim.bytes);
@@ -194,8 +197,7 @@ void Plan::put(const Slot& slot, const FixtureState& state, ports::DmxFrame& fra
 
 void Plan::encode(const rig::AllowedLevels& levels, std::span<ports::DmxFrame> frames) const {
   for (auto& frame : frames) frame.levels.fill(0);
-  for (const Slot& slot : slots_)
-    put(slot, levels.fixtures()[slot.fixture], frames[slot.universe]);
+  for (const Slot& slot : slots_) put(slot, levels.fixtures()[slot.fixture], frames[slot.universe]);
 }
 
 void Plan::read(const Slot& slot, const ports::DmxFrame& frame, FixtureState& state) const {
