@@ -22,6 +22,7 @@ Governor::State::State(const studio::Studio& studio, TimePoint now)
     : fingerprint(studio.fingerprint),
       watch(studio.safety, now),
       power(studio),
+      keep_out(studio),
       levels(studio.fixtures.size()),
       last_step(now) {}
 

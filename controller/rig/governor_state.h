@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "controller/rig/governor.h"
+#include "controller/rig/keep_out.h"
 #include "controller/rig/lamp.h"
 #include "controller/rig/motion.h"
 #include "controller/rig/power.h"
@@ -27,6 +28,7 @@ struct Governor::State {
   Watch watch;
   Motion motion;
   PowerBudget power;
+  KeepOut keep_out;
   AllowedLevels levels;
 
   std::array<double, kMasters> masters{1, 1, 1, 1, 1};

@@ -58,6 +58,10 @@ bool Governor::State::follow(std::size_t i, TimePoint now, double elapsed) {
   for (std::size_t d = 0; d < kDofs; ++d) {
     if (!lamp.can(d) || d == kIntensity) continue;
     Track& t = sources.track(i, d);
+    if (!lamp.is_axis(d) && t.fade.done(now) && t.sent == t.fade.target()) {
+      out.set(static_cast<Dof>(d), t.sent);
+      continue;
+    }
     if (dark) t.fade.end();
     const double wanted = t.fade.at(now);
     if (!going_dark)
@@ -82,7 +86,16 @@ bool Governor::State::follow_axis(std::size_t i, std::size_t d, double wanted, d
     return false;
   }
   const double reach = lamps[i].speed[d] * std::min(elapsed, kLongestStride);
-  t.sent += std::clamp(wanted - t.sent, -reach, reach);
+  const double next = t.sent + std::clamp(wanted - t.sent, -reach, reach);
+  FixtureState here, there;  // an arc and a track have this one axis
+  here.set(static_cast<Dof>(d), t.sent);
+  there.set(static_cast<Dof>(d), next);
+  if (keep_out.may_go(i, here, there)) {
+    t.sent = next;
+  } else {
+    limited[i] = limited[i] | Limit::person;
+    ++axes_waiting[i];
+  }
   return true;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether axes may move, and how fast. Disarmed at start; a person arms. The stop is a latch apart
+// Whether axes may move. Disarmed at start; a person arms. The stop is a latch apart
 // from blackout: it freezes axes with the light held, and releasing it moves nothing, because
 // stopping disarms (as a machine's emergency stop must: EN ISO 13850 4.1.4). Blackout darkens and
 // moves nothing either.

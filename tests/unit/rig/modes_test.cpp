@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "controller/rig/governor.h"
+#include "controller/rig/keep_out.h"
 #include "tests/support/studios.h"
 
 namespace chiaro::rig {
@@ -431,6 +432,52 @@ TEST_F(ModesTest, IsNotKeptDarkForEverByAnAxisThatMayNotMove) {
   run(9025ms, 11s);
   EXPECT_EQ(sent(11s, 2), 0.5);
   EXPECT_EQ(sent(11s, 2, Dof::pan), 0);
+}
+
+/// A lamp on a track that leads past the sitter, at the height of the face.
+class KeepOutTest : public ModesTest {
+ protected:
+  void build_track(const std::string& more, double from_y) {
+    studio_ = support::studio_from(support::studio_text(
+        "  t: {role: key, profile: generic/daylight-dimmer, mode: 1ch, mount: {track: {from: "
+        "[-2, " +
+            std::to_string(from_y) + ", 1.5], to: [2, " + std::to_string(from_y) +
+            ", 1.5], at: 0 %, axis: {channel: 2}}}, limits: {end_to_end: 4 s}, "
+            "patch: {universe: 1, address: 1}}\n",
+        more));
+    governor_.emplace(studio_, kStart);
+    governor_->arm_motion(true);
+    wanted_ = {};
+    wanted_.studio_fingerprint = studio_.fingerprint;
+    for (auto& source : wanted_.sources) source.fixtures.resize(1);
+    auto& look = wanted_.sources[static_cast<std::size_t>(Source::look)];
+    look.fade_id = 1;
+    look.fixtures[0].set(Dof::track, 1);
+    run(0s, 8s);
+  }
+  /// Where it stands across the room, in metres.
+  double x() { return -2 + 4 * sent(8s, 0, Dof::track); }
+};
+
+TEST_F(KeepOutTest, StopsALampBeforeItTouchesTheSitter) {
+  build_track("", 0.1);
+  EXPECT_EQ(report().limited[0], static_cast<Limited>(Limit::person));
+  const double body = studio_.fixtures[0].profile.body_radius;
+  EXPECT_LT(x(), -0.5);
+  EXPECT_GE(std::hypot(x(), 0.1), kPersonalSpace + body - 1e-9);
+  EXPECT_LE(std::hypot(x() + 4.0 / 4 * 0.025, 0.1), kPersonalSpace + body);
+}
+
+TEST_F(KeepOutTest, PassesWhereThereIsRoom) {
+  build_track("", 1.5);
+  EXPECT_DOUBLE_EQ(x(), 2);
+  EXPECT_EQ(report().limited[0], 0);
+}
+
+TEST_F(KeepOutTest, StopsBeforeAPlaceThatTheStudioFileNames) {
+  build_track("keep_out:\n  desk: {at: [1, 1.5, 1.5], radius: 0.5 m}\n", 1.5);
+  EXPECT_LT(x(), 0.5);
+  EXPECT_GT(x(), 0.2);
 }
 
 TEST_F(ModesTest, PassesOverLampsThatHaveArrived) {
