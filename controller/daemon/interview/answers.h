@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "controller/core/geometry.h"
+#include "controller/daemon/interview/learnt.h"
 #include "controller/studio/load.h"
 
 namespace chiaro::daemon::interview {
@@ -31,6 +32,7 @@ struct Answers {
   double grey_card_lux = 800, white_balance_k = 5600;
   std::string interface;  ///< empty = no wire yet
   std::vector<Lamp> lamps;
+  std::vector<LearntLamp> learnt;  ///< profiles to be written beside the studio file
 
   double aim_height() const { return mesh.empty() ? eye_height : base + 0.75 * height; }
   /// From where azimuth, elevation and distance are measured, as well as can be known without
@@ -39,11 +41,14 @@ struct Answers {
 };
 
 class Dialogue;
+class Wire;
 /// Asks everything. Nothing when the input ended before the last question. `base` is the folder of
-/// the file to be: relative paths are meant from there.
+/// the file to be: relative paths are meant from there. `wire`: for lamps that are learned.
 std::optional<Answers> interview(Dialogue& dialogue, const std::filesystem::path& base,
-                                 const studio::Folders& folders);
+                                 const studio::Folders& folders, Wire& wire);
 
 std::string studio_yaml(const Answers& answers);
+/// One lamp's entry below `fixtures:`, indented by two; `wall`: metres behind the sitter.
+std::string lamp_yaml(const Lamp& lamp, const core::AimFrame& aim, std::optional<double> wall);
 
 }  // namespace chiaro::daemon::interview

@@ -7,6 +7,7 @@
 
 #include "controller/daemon/interview/answers.h"
 #include "controller/daemon/interview/dialogue.h"
+#include "controller/daemon/interview/learning.h"
 #include "controller/daemon/interview/questions.h"
 #include "controller/studio/reading/text.h"
 #include "controller/studio/words.h"
@@ -19,6 +20,7 @@ using studio::reading::Measure;
 using studio::reading::written;
 
 constexpr int kMostLamps = 100;
+constexpr const char* kLearn = "learn";
 
 void ask_subject(Dialogue& dialogue, const std::filesystem::path& base,
                  const studio::Folders& folders, Answers& answers) {
@@ -127,20 +129,38 @@ int first_free(const std::vector<Lamp>& lamps, int universe, int slots) {
 void ask_profile(Dialogue& dialogue, const studio::Folders& folders, const Usual& usual,
                  Lamp& lamp) {
   const auto known = [&](const std::string& line) -> core::Result<studio::Profile> {
+    if (line == kLearn) return studio::Profile{};
     auto profile = studio::load_profile(line, folders);
     if (profile) return profile;
     const core::Problem& first = profile.problems().front();
     return unclear(first.what, first.remedy);
   };
-  const auto profile = dialogue.ask<studio::Profile>("  Profile", usual.profile, known);
+  const auto profile = dialogue.ask<studio::Profile>(
+      "  Profile (`learn`: find out by raising its slots)", usual.profile, known);
   lamp.profile = profile.name;
   std::vector<std::string> modes;
   for (const studio::Mode& mode : profile.modes) modes.push_back(mode.name);
-  if (modes.empty()) return;  // only when the input has ended
+  if (modes.empty()) return;  // to be learned, or the input has ended
   lamp.mode = dialogue.ask<std::string>("  Mode: " + studio::reading::any_of(modes), modes.front(),
                                         one_of(modes));
   for (const studio::Mode& mode : profile.modes)
     if (mode.name == lamp.mode) lamp.slots = mode.footprint;
+}
+
+/// What `learn` needs before and after the patch is known.
+void learn_lamp(Dialogue& dialogue, Wire& wire, Answers& answers, Lamp& lamp) {
+  LearntLamp learnt = learn(
+      dialogue, wire, {lamp.name, answers.interface, lamp.universe, lamp.address, lamp.slots});
+  while (!dialogue.ended()) {
+    const auto profile = profile_yaml(learnt);
+    if (profile) break;
+    dialogue.complain(profile.problems());
+    learnt = learn(dialogue, wire,
+                   {lamp.name, answers.interface, lamp.universe, lamp.address, lamp.slots});
+  }
+  lamp.profile = learnt.profile;
+  lamp.mode = kLearntMode;
+  answers.learnt.push_back(std::move(learnt));
 }
 
 void ask_patch(Dialogue& dialogue, const Answers& answers, Lamp& lamp) {
@@ -195,7 +215,7 @@ void ask_place(Dialogue& dialogue, const Answers& answers, const Usual& usual, L
                                              usual_place(usual, answers), in_the_room);
 }
 
-Lamp ask_lamp(Dialogue& dialogue, const studio::Folders& folders, const Answers& answers,
+Lamp ask_lamp(Dialogue& dialogue, const studio::Folders& folders, Answers& answers, Wire& wire,
               std::size_t index) {
   const Usual& usual = kUsual[std::min(index, std::size(kUsual) - 1)];
   std::vector<std::string> taken;
@@ -214,7 +234,11 @@ Lamp ask_lamp(Dialogue& dialogue, const studio::Folders& folders, const Answers&
                                     [&](const Usual& each) { return each.role == lamp.role; });
   const Usual& defaults = by_role == std::end(kUsual) ? usual : *by_role;
   ask_profile(dialogue, folders, defaults, lamp);
+  const bool unknown = lamp.profile.empty();
+  if (unknown)
+    lamp.slots = dialogue.ask<int>("  How many slots it listens to", "4", a_whole_number(1, 32));
   ask_patch(dialogue, answers, lamp);
+  if (unknown) learn_lamp(dialogue, wire, answers, lamp);
   ask_place(dialogue, answers, defaults, lamp);
   return lamp;
 }
@@ -222,7 +246,7 @@ Lamp ask_lamp(Dialogue& dialogue, const studio::Folders& folders, const Answers&
 }  // namespace
 
 std::optional<Answers> interview(Dialogue& dialogue, const std::filesystem::path& base,
-                                 const studio::Folders& folders) {
+                                 const studio::Folders& folders, Wire& wire) {
   Answers answers;
   dialogue.say("A few questions about your studio. Enter alone takes the answer in [brackets].");
   answers.studio = dialogue.ask<std::string>("Name of the studio", "my studio", a_line());
@@ -232,7 +256,8 @@ std::optional<Answers> interview(Dialogue& dialogue, const std::filesystem::path
   ask_wire(dialogue, answers);
   const int count = dialogue.ask<int>("How many lamps", "3", a_whole_number(1, kMostLamps));
   for (int i = 0; i < count && !dialogue.ended(); ++i)
-    answers.lamps.push_back(ask_lamp(dialogue, folders, answers, static_cast<std::size_t>(i)));
+    answers.lamps.push_back(
+        ask_lamp(dialogue, folders, answers, wire, static_cast<std::size_t>(i)));
   return dialogue.ended() ? std::nullopt : std::optional(answers);
 }
 

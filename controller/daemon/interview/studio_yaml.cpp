@@ -105,20 +105,13 @@ std::string stand(const Lamp& lamp) {
          "\n";
 }
 
-std::string hung(const Lamp& lamp, const Answers& a) {
-  const core::Vec3 at = core::position(a.aim(), lamp.place);
+std::string hung(const Lamp& lamp, const core::AimFrame& aim, std::optional<double> wall) {
+  const core::Vec3 at = core::position(aim, lamp.place);
   // A background lamp lights the wall, everything else the sitter.
-  const core::Vec3 aim_at = lamp.role == "background" && a.wall
-                                ? core::Vec3{0, *a.wall, a.aim_height()}
-                                : core::Vec3{0, 0, a.aim_height()};
+  const core::Vec3 aim_at = lamp.role == "background" && wall
+                                ? core::Vec3{aim.origin.x, *wall, aim.origin.z}
+                                : aim.origin;
   return "    mount: {fixed: {at: " + vector(at) + ", aim_at: " + vector(aim_at) + "}}\n";
-}
-
-std::string lamp_block(const Lamp& lamp, const Answers& a) {
-  return "  " + named(lamp.name) + ":\n    role: " + lamp.role + "\n    profile: " + lamp.profile +
-         "\n    mode: " + named(lamp.mode) + "\n" + (lamp.on_stand ? stand(lamp) : hung(lamp, a)) +
-         "    patch: {universe: " + std::to_string(lamp.universe) +
-         ", address: " + std::to_string(lamp.address) + "}\n";
 }
 
 std::string outputs(const Answers& a) {
@@ -135,6 +128,14 @@ std::string outputs(const Answers& a) {
 
 }  // namespace
 
+std::string lamp_yaml(const Lamp& lamp, const core::AimFrame& aim, std::optional<double> wall) {
+  return "  " + named(lamp.name) + ":\n    role: " + lamp.role + "\n    profile: " + lamp.profile +
+         "\n    mode: " + named(lamp.mode) + "\n" +
+         (lamp.on_stand ? stand(lamp) : hung(lamp, aim, wall)) +
+         "    patch: {universe: " + std::to_string(lamp.universe) +
+         ", address: " + std::to_string(lamp.address) + "}\n";
+}
+
 core::AimFrame Answers::aim() const {
   return core::aim_frame({0, 0, aim_height()}, {0, -camera_distance, camera_height});
 }
@@ -145,7 +146,7 @@ std::string studio_yaml(const Answers& a) {
       quoted(a.studio) + "\n\n" + subject(a) + "\n" + room(a) + "\n" + camera(a) +
       "\n# Places are seen from the sitter: azimuth 0 deg is towards the camera, + is the\n"
       "# camera's right; elevation is + upwards.\nfixtures:\n";
-  for (const Lamp& lamp : a.lamps) text += lamp_block(lamp, a);
+  for (const Lamp& lamp : a.lamps) text += lamp_yaml(lamp, a.aim(), a.wall);
   return text + "\n" + outputs(a) +
          "\n# An 18 % card lit by this much renders as mid grey (L* 50).\nexposure: {grey_card: " +
          number(a.grey_card_lux) + " lx, white_balance: " + number(a.white_balance_k) + " K}\n";

@@ -36,7 +36,7 @@ class NewCommand : public ::testing::Test {
     return fake_.err.str().find(words) != std::string::npos;
   }
   support::TemporaryFolder folder_;
-  support::FakeClock clock_;
+  support::FakeClock clock_{support::FakeClock::Sleep::jumps};
   support::FakeNetwork network_;
   support::FakeWorld fake_;
 };
@@ -130,6 +130,27 @@ TEST_F(NewCommand, AFileThatIsThereStaysUnlessForced) {
 TEST_F(NewCommand, QuotesAndBackslashesInANameSurvive) {
   ASSERT_EQ(run("The \"big\" C:\\room # 1\n" + std::string(60, '\n')), ports::Exit::done);
   EXPECT_EQ(loaded().name, "The \"big\" C:\\room # 1");
+}
+
+TEST_F(NewCommand, ALampWithoutAProfileIsLearnedSlotBySlot) {
+  const std::string lamp =
+      "odd panel\nkey\nlearn\n3\n1\n21\ndimmer\nagain\nfine\ncct\n4000 cd\nyes\n\n";
+  ASSERT_EQ(run(kRoom + "1\n" + lamp), ports::Exit::done) << fake_.err.str();
+  const studio::Studio studio = loaded();
+  const studio::Fixture& learned = studio.fixtures.at(0);
+  EXPECT_EQ(learned.profile.name, "own/odd-panel");
+  EXPECT_EQ(learned.profile.modes.at(0).footprint, 3);
+  EXPECT_EQ(learned.profile.emitter.kind, studio::Emitter::Kind::bicolour);
+  EXPECT_EQ(std::get<studio::DmxPatch>(learned.patch).address, 21);
+  // Four times three seconds at 20 Hz, each with its zeros and its goodbyes.
+  EXPECT_GE(network_.sent(), 4u * 61u);
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "fixtures/own/odd-panel.yaml"));
+}
+
+TEST_F(NewCommand, WhatGivesNoLightIsAskedAgain) {
+  const std::string lamp = "odd\nkey\nlearn\n1\n\n\npan\n\ndimmer\n\nyes\n\n";
+  ASSERT_EQ(run(kRoom + "1\n" + lamp), ports::Exit::done) << fake_.err.str();
+  EXPECT_TRUE(said("no slot gave light"));
 }
 
 TEST_F(NewCommand, AFolderThatIsNotThereIsSaidBeforeAnythingIsAsked) {
