@@ -32,6 +32,7 @@ std::string looks_to_json(const std::vector<LookEntry>& looks) {
                     {"verdict", look.verdict},
                     {"created", look.created},
                     {"live", look.live},
+                    {"kept", look.kept},
                     {"picture", base + "/picture"}});
   }
   return Json({{"looks", list}}).dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -59,7 +60,38 @@ Response picture_answer(const PictureOf& which, Brain& brain) {
   return {200, file.type, std::move(file.bytes), {{"Cache-Control", "no-store"}}};
 }
 
+/// The addresses that only answer, and those of routes.def.
+std::string addresses_to_json() {
+  static constexpr std::pair<const char*, const char*> kAsked[] = {
+      {"state", "all that can be seen of the studio"},
+      {"moods", "shipped and own pictures"},
+      {"moods/*/picture", "the picture of a mood"},
+      {"looks", "looks that were found or saved"},
+      {"looks/*/picture", "the look as predicted, lamps where they are wanted"},
+      {"looks/*/placed_picture", "the same, lamps where they stand"},
+      {"looks/*/reference", "the picture that it was to be like"},
+      {"design/*", "how a job stands"},
+      {"outputs/*/slots", "what is in the 512 slots of a universe now"},
+      {"cameras/*/picture", "the camera's newest picture"},
+      {"cameras/*/stream", "its pictures, one after another (MJPEG)"},
+      {"events", "WebSocket: state and design events"}};
+  Json list = Json::array();
+  for (const auto& [path, what] : kAsked)
+    list.push_back({{"method", "GET"}, {"path", "/api/v1/" + std::string(path)}, {"what", what}});
+  for (const Address& address : addresses())
+    list.push_back({{"method", address.method},
+                    {"path", "/api/v1/" + std::string(address.path)},
+                    {"what", address.what},
+                    {"example", address.example}});
+  return Json({{"addresses", list}}).dump();
+}
+
 Response get(const Request& request, const Words& words, Brain& brain) {
+  if (words.empty()) return json_answer(addresses_to_json());
+  if (words.size() == 3 && words[0] == "outputs" && words[2] == "slots")
+    for (const OutputView& output : brain.state().outputs)
+      if (std::to_string(output.universe) == words[1])
+        return json_answer(slots_to_json(brain.state(), output));
   if (words == Words{"state"}) return json_answer(state_to_json(brain.state()));
   if (words == Words{"moods"}) return json_answer(moods_to_json(brain.state()));
   if (words == Words{"looks"}) return json_answer(looks_to_json(brain.looks()));
@@ -84,7 +116,7 @@ void answer(const Request& request, Brain& brain, Reply reply) {
                   metrics_of(brain.state(), brain.counters()),
                   {}});
   Words words = words_of(request.path);
-  if (words.size() < 4 || words[1] != "api" || words[2] != "v1")
+  if (words.size() < 3 || words[1] != "api" || words[2] != "v1")
     return reply(refuse({404, "there is nothing at " + request.path, request.path,
                          "the API begins at /api/v1/state"}));
   words.erase(words.begin(), words.begin() + 3);

@@ -39,7 +39,7 @@ struct PictureFile {
 struct LookEntry {
   std::int64_t id = 0;
   std::string name, mood, verdict, created;
-  bool live = false;
+  bool live = false, kept = false;  ///< kept: a person gave it its name
 };
 
 /// Counters since the brain started, for /metrics.

@@ -6,7 +6,9 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -15,12 +17,20 @@
 
 namespace chiaro::panel {
 
-/// Exactly one of mood, picture, ideal.
+/// How a person bends what the reference asks for, in stops; each may be negative.
+struct Nudges {
+  double brighter = 0, softer = 0, warmer = 0, contrast = 0;
+  friend bool operator==(const Nudges&, const Nudges&) = default;
+};
+
+/// Exactly one of mood, picture, ideal, flat.
 struct StartDesign {
   std::string mood;
   std::string picture;  ///< bytes of an uploaded reference picture
   std::string title;    ///< for people
   bool ideal = false;
+  bool flat = false;  ///< work light: even from the front, what a sitter looks like before a mood
+  Nudges nudges;
   bool wavelet = true;  ///< goal "wavelet", else "perceptual"
   std::uint64_t seed = 1;
   std::uint64_t trials = 0;  ///< 0 = the engine's default
@@ -37,6 +47,10 @@ struct SaveLook {
   std::string name;
   std::string look_json;  ///< "" = what is live now
 };
+struct RenameLook {
+  std::int64_t id = 0;
+  std::string name;
+};
 struct ApplyLook {
   std::int64_t id = 0;
   double fade_s = 1.5;
@@ -46,6 +60,15 @@ struct DeleteLook {
 };
 /// Back to the look that was live before.
 struct Undo {
+  double fade_s = 1.5;
+};
+/// A little more of something than the live look has; on top of earlier nudges.
+struct Nudge {
+  Nudges by;
+  double fade_s = 0.5;
+};
+/// Even light from the front, to work by and to begin from.
+struct WorkLight {
   double fade_s = 1.5;
 };
 struct SetFixture {
@@ -58,10 +81,18 @@ struct SetMaster {
   std::size_t master = 0;  ///< index into kMasterNames
   double level = 1;
 };
-/// A stand has been moved; an empty state means "exactly as wanted".
+/// A person has moved a stand, turned a knob, fitted a gel or set a flash; an empty state means
+/// "exactly as wanted".
 struct Placed {
   std::string fixture;
-  core::FixtureState at;  ///< placement, inside units
+  core::FixtureState at;  ///< of what a hand sets, inside units
+};
+/// What a light meter read of this lamp alone; nothing: back to the data sheet.
+struct Measured {
+  std::string fixture;
+  std::optional<double> lux;
+  std::optional<double> distance_m;  ///< from the lamp; where the sitter is when absent
+  std::optional<double> intensity;   ///< at which it was read; what is being sent when absent
 };
 struct Reload {};
 struct MotionStop {
@@ -70,6 +101,26 @@ struct MotionStop {
 struct Blackout {
   bool on = true;
 };
+/// Slots of a lamp without a profile, raised for as long as the word is repeated; none: released.
+struct TrySlots {
+  std::uint16_t universe = 1;
+  std::vector<std::pair<std::uint16_t, std::uint8_t>> levels;  ///< slot 1..512, raw level
+};
+/// What a person saw of each slot, from the first on: a profile and a patch line come of it.
+struct LearnLamp {
+  std::string name, role = "key", maker = "Own", model;
+  std::uint16_t universe = 1, address = 1;
+  struct Slot {
+    std::string sees;          ///< one of kSeen
+    std::uint8_t level = 255;  ///< for "keep": what is sent for ever
+  };
+  std::vector<Slot> slots;
+  double output_cd = 5000;
+  core::Range cct{3200, 5600};  ///< equal ends: one colour
+  std::string place = "45 left, 35 up, 1.8 m";
+  bool on_stand = true;
+  bool add = false;  ///< write profile and patch line, and read the studio again
+};
 struct AddMood {
   std::string name, title, picture;
 };
@@ -77,8 +128,20 @@ struct RemoveMood {
   std::string name;
 };
 using Gesture =
-    std::variant<StartDesign, CancelDesign, SaveLook, ApplyLook, DeleteLook, Undo, SetFixture,
-                 SetMaster, Placed, Reload, MotionStop, Blackout, AddMood, RemoveMood>;
+    std::variant<StartDesign, CancelDesign, Nudge, WorkLight, SaveLook, RenameLook, ApplyLook,
+                 DeleteLook, Undo, SetFixture, SetMaster, Placed, Measured, Reload, MotionStop,
+                 Blackout, TrySlots, LearnLamp, AddMood, RemoveMood>;
+
+/// What a person may have seen a slot do.
+inline constexpr const char* kSeen[] = {"nothing", "dimmer",     "fine",  "red",  "green", "blue",
+                                        "white",   "warm_white", "amber", "lime", "cyan",  "cct",
+                                        "tint",    "zoom",       "pan",   "tilt", "keep"};
+
+/// Every address that changes something, as routes.def lists them.
+struct Address {
+  const char *method, *path, *what, *example;
+};
+std::span<const Address> addresses();
 
 /// The gesture that this POST, PUT or DELETE under /api/v1 means, or why it means none: 404 unknown
 /// route or name (with the nearest), 405 wrong method, 400 malformed, 422 well-formed but not

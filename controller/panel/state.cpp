@@ -43,6 +43,14 @@ Json json_of(const FixtureView& fixture, bool counters) {
                {"words", fixture.words},
                {"level", fixture.level},
                {"colour", fixture.colour},
+               {"light", fixture.light},
+               {"lux", rounded(fixture.lux)},
+               {"output_cd", rounded(fixture.output_cd)},
+               {"measured", fixture.measured},
+               {"patch", fixture.patch ? Json({{"universe", fixture.patch->universe},
+                                               {"address", fixture.patch->address},
+                                               {"slots", fixture.patch->slots}})
+                                       : Json(nullptr)},
                {"wanted", panel::json_of(fixture.wanted)},
                {"placed", panel::json_of(fixture.placed)}};
   if (counters) json["sent"] = panel::json_of(fixture.sent);
@@ -52,7 +60,8 @@ Json json_of(const FixtureView& fixture, bool counters) {
   json["controlled"] = fixture.controlled;
   json["by_hand"] = by_hand;
   json["instruction"] = fixture.instruction ? json_of(*fixture.instruction, false) : Json(nullptr);
-  if (!counters) json.erase("level"), json.erase("colour");
+  if (!counters)
+    for (const char* name : {"level", "colour", "light", "lux"}) json.erase(name);
   return json;
 }
 
@@ -64,7 +73,14 @@ Json json_of(const LookView& look, bool counters) {
                {"verdict", look.verdict},
                {"verdict_when_placed", look.verdict_when_placed},
                {"remedy", look.remedy},
-               {"ratio", look.ratio}};
+               {"ratio", look.ratio},
+               {"light", look.light},
+               {"nudges", Json::object()},
+               {"advice", look.advice},
+               {"can_nudge", look.can_nudge},
+               {"kept", look.kept},
+               {"edition", look.edition}};
+  for (const auto& [name, stops] : look.nudges) json["nudges"][name] = rounded(stops);
   if (counters) json["fade"] = rounded(look.fade);
   json["picture"] = base + "/picture";
   json["placed_picture"] = base + "/placed_picture";
@@ -97,8 +113,10 @@ Json json_of(const OutputView& output, bool counters) {
   json["frames"] = output.frames;
   json["late"] = output.late;
   json["failed"] = output.failed;
+  json["missed"] = output.missed;
   json["jitter_us_p50"] = rounded(output.jitter_us_p50);
   json["jitter_us_p99"] = rounded(output.jitter_us_p99);
+  json["jitter_us_p999"] = rounded(output.jitter_us_p999);
   return json;
 }
 
@@ -117,6 +135,13 @@ Json list_of(const Items& items, const More&... more) {
   Json list = Json::array();
   for (const auto& item : items) list.push_back(json_of(item, more...));
   return list;
+}
+
+Json json_of(const TriedView& tried) {
+  if (tried.slots.empty()) return Json::object();
+  Json json = {{"universe", tried.universe}, {"slots", Json::object()}};
+  for (const auto& [slot, level] : tried.slots) json["slots"][std::to_string(slot)] = level;
+  return json;
 }
 
 Json instructions_of(const State& state) {
@@ -183,6 +208,9 @@ std::string state_to_json(const State& state, bool counters) {
                   {"real_time", state.real_time}};
   json["caution"] = state.caution;
   json["blackout"] = state.blackout;
+  json["motion"] = {{"stopped", state.motion_stopped},
+                    {"armed", state.motion_armed},
+                    {"axes_waiting", state.axes_waiting}};
   Json masters = Json::object();
   for (std::size_t i = 0; i < state.masters.size(); ++i)
     masters[kMasterNames[i]] = rounded(state.masters[i]);
@@ -193,11 +221,22 @@ std::string state_to_json(const State& state, bool counters) {
   json["instructions"] = instructions_of(state);
   json["outputs"] = list_of(state.outputs, counters);
   json["cameras"] = list_of(state.cameras, counters);
+  json["tried"] = json_of(state.tried);
   Json problems = Json::array();
   for (const core::Problem& problem : state.problems) problems.push_back(json_of(problem));
   json["problems"] = problems;
   json["can_undo"] = state.can_undo;
   return text(json);
+}
+
+std::string slots_to_json(const State& state, const OutputView& output) {
+  Json owners = Json::array();
+  for (const FixtureView& fixture : state.fixtures)
+    if (fixture.patch && fixture.patch->universe == output.universe)
+      owners.push_back({{"fixture", fixture.name},
+                        {"first", fixture.patch->address},
+                        {"last", fixture.patch->address + fixture.patch->slots - 1}});
+  return text({{"universe", output.universe}, {"slots", output.slots}, {"owners", owners}});
 }
 
 std::string moods_to_json(const State& state) {
@@ -209,6 +248,8 @@ std::string moods_to_json(const State& state) {
                     {"tags", mood.tags},
                     {"attainable", mood.attainable},
                     {"own", mood.own},
+                    {"words", mood.words},
+                    {"turn", mood.turn},
                     {"picture", "/api/v1/moods/" + mood.name + "/picture"}});
   return text({{"moods", list}});
 }

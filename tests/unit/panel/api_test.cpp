@@ -227,6 +227,70 @@ TEST_F(ApiTest, TakesWhereAStandWasPut) {
   refused(ask("POST", "/api/v1/fixtures/fill/placed", "{}"), 422);
 }
 
+TEST_F(ApiTest, TakesAMetersReadingAsTheMeterShowsIt) {
+  ask("POST", "/api/v1/fixtures/key/measured", R"({"reading":"39 fc","distance_m":1.8})");
+  EXPECT_NEAR(wish<Measured>().lux.value_or(0), 39 * 10.7639, 0.1);
+  EXPECT_EQ(wish<Measured>().distance_m, 1.8);
+  brain.gestures.clear();
+  ask("POST", "/api/v1/fixtures/key/measured", R"({"lux":420})");
+  EXPECT_EQ(wish<Measured>().lux, 420);
+  brain.gestures.clear();
+  ask("POST", "/api/v1/fixtures/key/measured", R"({"forget":true})");
+  EXPECT_FALSE(wish<Measured>().lux);
+  brain.gestures.clear();
+  refused(ask("POST", "/api/v1/fixtures/key/measured", R"({"reading":"bright"})"), 422);
+  refused(ask("POST", "/api/v1/fixtures/key/measured", R"({"lux":-1})"), 422);
+  refused(ask("POST", "/api/v1/fixtures/key/measured", "{}"), 400);
+}
+
+TEST_F(ApiTest, RaisesOnlySlotsThatNoLampHas) {
+  brain.state_.fixtures[0].patch = {1, 1, 4};
+  ask("PUT", "/api/v1/kit/slots", R"({"universe":1,"slots":{"21":128,"22":0}})");
+  const auto& tried = wish<TrySlots>();
+  ASSERT_EQ(tried.levels.size(), 2u);
+  EXPECT_EQ(tried.levels[0], (std::pair<std::uint16_t, std::uint8_t>{21, 128}));
+  brain.gestures.clear();
+  const auto with = [&](const std::string& slots) {
+    return ask("PUT", "/api/v1/kit/slots", R"({"universe":1,"slots":)" + slots + "}");
+  };
+  EXPECT_EQ(refused(with(R"({"4":128})"), 409).at("what"), "slot 4 belongs to 'key'");
+  refused(with(R"({"0":128})"), 422);
+  refused(with(R"({"513":128})"), 422);
+  refused(with(R"({"21":256})"), 422);
+  refused(with(R"({"21":0.5})"), 422);
+  refused(with("[]"), 400);
+  refused(ask("PUT", "/api/v1/kit/slots", R"({"universe":9,"slots":{"21":1}})"), 422);
+  ask("DELETE", "/api/v1/kit/slots");
+  EXPECT_TRUE(wish<TrySlots>().levels.empty());
+}
+
+TEST_F(ApiTest, LearnsALampOfWhatAPersonSaw) {
+  const auto with = [&](const std::string& more) {
+    return ask("POST", "/api/v1/kit", R"({"name":"old panel","universe":1,)" + more + "}");
+  };
+  with(R"("address":21,"slots":[{"sees":"dimmer"},{"sees":"keep","level":40}],"add":true)");
+  const auto& lamp = wish<LearnLamp>();
+  ASSERT_EQ(lamp.slots.size(), 2u);
+  EXPECT_EQ(lamp.slots[1].level, 40);
+  EXPECT_TRUE(lamp.add);
+  brain.gestures.clear();
+  refused(with(R"("slots":[])"), 400);
+  refused(with(R"("slots":[{"sees":"sparks"}])"), 422);
+  refused(with(R"("slots":[{"saw":"dimmer"}])"), 400);
+  brain.state_.fixtures[0].patch = {1, 1, 4};
+  refused(with(R"("address":3,"slots":[{"sees":"dimmer"}])"), 409);
+}
+
+TEST_F(ApiTest, ShowsEverySlotAndWhoseItIs) {
+  brain.state_.outputs[0].slots[4] = 200;
+  brain.state_.fixtures[1].patch = {1, 5, 2};
+  const Json slots = Json::parse(ask("GET", "/api/v1/outputs/1/slots").body);
+  EXPECT_EQ(slots.at("slots").size(), 512u);
+  EXPECT_EQ(slots.at("slots")[4], 200);
+  EXPECT_EQ(slots.at("owners")[0], Json({{"fixture", "fill"}, {"first", 5}, {"last", 6}}));
+  refused(ask("GET", "/api/v1/outputs/9/slots"), 404);
+}
+
 TEST_F(ApiTest, SetsMasters) {
   ask("PUT", "/api/v1/masters/back", R"({"level":0.5})");
   EXPECT_EQ(wish<SetMaster>().master, 3u);
@@ -323,7 +387,6 @@ TEST_F(ApiTest, SaysWhichMethodAnAddressTakes) {
 TEST_F(ApiTest, KnowsNothingElse) {
   refused(ask("GET", "/api/v1/rigs"), 404);
   refused(ask("GET", "/api/v2/state"), 404);
-  refused(ask("GET", "/api/v1"), 404);
   refused(ask("POST", "/api/v1/fixtures/key/placed/now", "{}"), 404);
   refused(ask("GET", "/api/v1/looks/abc/picture"), 404);
   refused(ask("GET", "/api/v1/cameras/maim/picture"), 404);
