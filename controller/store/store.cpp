@@ -98,6 +98,13 @@ core::Result<core::Done> Store::update_look(const LookRecord& look) {
   return database_->done(update.run());
 }
 
+core::Result<core::Done> Store::update_pictures(std::int64_t id, const Bytes& picture,
+                                                const Bytes& placed_picture) {
+  Statement update(database_->handle,
+                   "UPDATE looks SET picture = ?, placed_picture = ? WHERE id = ?");
+  return database_->done(update.blob(picture).blob(placed_picture).number(id).run());
+}
+
 core::Result<core::Done> Store::keep_look(std::int64_t id, const std::string& name) {
   Statement update(database_->handle, "UPDATE looks SET name = ?, kept = 1 WHERE id = ?");
   return database_->done(update.text(name).number(id).run());

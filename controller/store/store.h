@@ -51,6 +51,8 @@ class Store {
   core::Result<std::int64_t> save_look(const LookRecord& look);
   /// Replaces json, verdict and the placed picture of a look that was solved again.
   core::Result<core::Done> update_look(const LookRecord& look);
+  core::Result<core::Done> update_pictures(std::int64_t id, const Bytes& picture,
+                                           const Bytes& placed_picture);
   core::Result<core::Done> keep_look(std::int64_t id, const std::string& name);
   std::optional<LookRecord> look(std::int64_t id) const;
   /// Newest first, without JSON and pictures.

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "controller/design/nudge.h"
 #include "controller/panel/gestures.h"
 
 namespace chiaro::daemon {
@@ -13,6 +14,8 @@ namespace chiaro::daemon {
 std::string asked_to_json(const panel::StartDesign& ask);
 /// An empty ask (no mood, no picture, not ideal) when the text says nothing that can be solved.
 panel::StartDesign asked_from_json(const std::string& json, const std::string& reference);
+/// Stops as the design engine counts them: quarter steps.
+design::Nudge steps_of(const panel::Nudges& nudges);
 bool can_be_solved(const panel::StartDesign& ask);
 
 }  // namespace chiaro::daemon

@@ -27,6 +27,11 @@ panel::Refusal not_taken() {
           "run 'chiaro blackout on', or switch the lamps off at the mains"};
 }
 
+panel::Refusal not_stopped() {
+  return {503, "the output process has not answered: motion may not have stopped", "motion-stop",
+          "run 'chiaro motion stop', or use the emergency stop of the axes"};
+}
+
 }  // namespace
 
 core::Result<std::unique_ptr<Brain>> Brain::open(ports::World& world,
@@ -78,6 +83,7 @@ core::Result<core::Done> Brain::take_studio(studio::Loaded loaded) {
   studio_ = std::move(loaded.studio);
   warnings_ = std::move(loaded.warnings);
   placements_.emplace(studio_, store_->get("placed:" + studio_.name).value_or(""));
+  standing_.reset();
   sent_.reset();
   ++studio_turn_;
   prepare_twin();
@@ -89,7 +95,7 @@ core::Result<core::Done> Brain::take_studio(studio::Loaded loaded) {
 void Brain::prepare_twin() {
   ready_ = false;
   twin_problems_.clear();
-  planner_.prepare(studio_, world_.state_folder / "meshes",
+  planner_.prepare(standing(), world_.state_folder / "meshes",
                    [this, here = here_, turn = studio_turn_](core::Problems problems) {
                      if (!*here || turn != studio_turn_) return;
                      ready_ = true;
@@ -181,14 +187,19 @@ void Brain::speak(ports::TimePoint now) {
 }
 
 void Brain::answer_waiting(ports::TimePoint now) {
-  std::vector<WaitingForDark> still;
-  for (WaitingForDark& waiting : waiting_) {
-    const bool taken = hand_alive_ && sent_ && sent_->blackout_id >= waiting.id;
-    if (taken) {
+  std::vector<Waiting> still;
+  for (Waiting& waiting : waiting_) {
+    const std::uint64_t heard = !hand_alive_ || !sent_ ? 0
+                                : waiting.motion       ? sent_->motion_stop.id
+                                                       : sent_->blackout_id;
+    if (heard >= waiting.id) {
       renew_state();
-      waiting.answer({{}, 200, fmt::format(R"({{"blackout":{}}})", sent_->blackout)});
+      waiting.answer({{},
+                      200,
+                      waiting.motion ? fmt::format(R"({{"motion_stop":{}}})", sent_->motion_stop.on)
+                                     : fmt::format(R"({{"blackout":{}}})", sent_->blackout)});
     } else if (now >= waiting.until) {
-      waiting.answer({not_taken()});
+      waiting.answer({waiting.motion ? not_stopped() : not_taken()});
     } else {
       still.push_back(std::move(waiting));
     }

@@ -53,18 +53,22 @@ class Brain final : public panel::Brain {
   void count_traffic(std::uint64_t requests, std::size_t listeners, std::size_t watchers);
 
  private:
+  /// Looks that nobody named are kept for undo and for looking back, up to this many.
+  static constexpr std::size_t kMostNameless = 50;
   struct Live {
     store::LookRecord record;
     design::Look look;
+    std::vector<std::string> advice;  ///< what lamps alone cannot do of the last nudge
   };
   struct Job {
     panel::JobView view;
     panel::StartDesign ask;
     std::shared_ptr<JobBoard> board;
   };
-  struct WaitingForDark {
+  /// Answered only once the hand has taken the wish.
+  struct Waiting {
     std::uint64_t id = 0;
-    bool on = true;
+    bool motion = false;  ///< the motion stop; else blackout
     ports::TimePoint until;
     panel::Answer answer;
   };
@@ -84,13 +88,19 @@ class Brain final : public panel::Brain {
   // One for each gesture.
   void carry_out(const panel::StartDesign& ask, const panel::Answer& answer);
   void carry_out(const panel::CancelDesign& cancel, const panel::Answer& answer);
+  void carry_out(const panel::Nudge& nudge, const panel::Answer& answer);
+  void carry_out(const panel::WorkLight& light, const panel::Answer& answer);
   void carry_out(const panel::SaveLook& save, const panel::Answer& answer);
+  void carry_out(const panel::RenameLook& rename, const panel::Answer& answer);
   void carry_out(const panel::ApplyLook& apply, const panel::Answer& answer);
   void carry_out(const panel::DeleteLook& remove, const panel::Answer& answer);
   void carry_out(const panel::Undo& undo, const panel::Answer& answer);
   void carry_out(const panel::SetFixture& set, const panel::Answer& answer);
   void carry_out(const panel::SetMaster& set, const panel::Answer& answer);
   void carry_out(const panel::Placed& placed, const panel::Answer& answer);
+  void carry_out(const panel::Measured& measured, const panel::Answer& answer);
+  void carry_out(const panel::TrySlots& slots, const panel::Answer& answer);
+  void carry_out(const panel::LearnLamp& lamp, const panel::Answer& answer);
   void carry_out(const panel::Reload& reload, const panel::Answer& answer);
   void carry_out(const panel::MotionStop& stop, const panel::Answer& answer);
   void carry_out(const panel::Blackout& blackout, const panel::Answer& answer);
@@ -99,11 +109,22 @@ class Brain final : public panel::Brain {
 
   // Jobs and looks.
   core::Result<design::Goal> goal_of(const panel::StartDesign& ask) const;
+  /// Cancels what runs and gives the planner `task` in its place; answers 202.
+  void begin(const panel::StartDesign& ask, DesignTask task, const panel::Answer& answer);
+  /// Even light from the front, as far as the lamps reach.
+  studio::Rig work_light() const;
+  void renew_work_light(double fade_s);
+  bool drawn_on_our_sitter(const panel::StartDesign& ask) const;
   DesignTask task_of(const panel::StartDesign& ask, design::Goal goal) const;
   void cancel_running();
   void finished(std::uint64_t job, core::Result<Designed> result);
   void keep(const panel::StartDesign& ask, Designed designed);
   std::optional<Live> load(std::int64_t look, panel::Refusal& refusal) const;
+  /// As it can be asked for again; an empty request when the look does not say.
+  std::string request_of(const std::string& look_json) const;
+  /// Pictures as large as the camera's, once there is time for them.
+  void draw(std::int64_t look, studio::Rig wanted, studio::Rig placed);
+  core::Result<core::Done> keep_placements();
   /// Applies now, or first solves the levels for where the lamps stand by now.
   void go_live(Live live, double fade_s, bool remember_last);
   void solve_again(double fade_s);
@@ -112,8 +133,13 @@ class Brain final : public panel::Brain {
   // The state.
   void changed() { dirty_ = true; }
   void renew_state();
-  panel::FixtureView view_of(std::size_t fixture) const;
-  std::optional<panel::LookView> live_view() const;
+  panel::FixtureView view_of(std::size_t fixture, const studio::Rig& rig) const;
+  std::optional<panel::LookView> live_view(const studio::Rig& rig) const;
+  std::optional<panel::Instruction> instruction_for(std::size_t fixture) const;
+  /// The studio with its stands, knobs and outputs as they are now.
+  const studio::Studio& standing() const;
+  /// What the lamps are being told, on the standing studio.
+  studio::Rig sent_rig() const;
   void hear(ports::TimePoint now);
   void speak(ports::TimePoint now);
   void answer_waiting(ports::TimePoint now);
@@ -127,6 +153,7 @@ class Brain final : public panel::Brain {
   core::Problems warnings_;
   design::Moods moods_;
   std::optional<Placements> placements_;
+  mutable std::optional<studio::Studio> standing_;  ///< forgotten when a placement changes
   std::optional<Console> console_;
   std::unique_ptr<HandLink> link_;
   std::optional<rig::Sent> sent_;
@@ -136,13 +163,16 @@ class Brain final : public panel::Brain {
   std::vector<std::string> notes_;  ///< what went wrong lately, for people
 
   std::optional<Live> live_;
+  std::uint64_t edition_ = 0;  ///< of the live look's pictures
+  panel::TrySlots tried_;
+  ports::TimePoint tried_until_;
   std::vector<std::int64_t> history_;  ///< looks that were live before, newest last
   std::optional<Job> job_;
   std::uint64_t jobs_ = 0, studio_turn_ = 0;
   std::shared_ptr<JobBoard> again_;  ///< of the solve-again that is under way
   std::map<std::string, std::shared_ptr<Eye>> eyes_;
   std::function<void(const std::string&, std::shared_ptr<const std::string>)> show_;
-  std::vector<WaitingForDark> waiting_;
+  std::vector<Waiting> waiting_;
 
   std::size_t watchers_ = 0;
   panel::State state_;

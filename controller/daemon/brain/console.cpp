@@ -38,11 +38,12 @@ void Console::adopt(const rig::Wanted& hand) {
     state.fixtures.resize(fixtures_);
     newest_id_ = std::max(newest_id_, state.fade_id);
   }
-  newest_id_ = std::max(newest_id_, wanted_.blackout_id);
+  newest_id_ = std::max({newest_id_, wanted_.blackout_id, wanted_.motion_stop.id});
 }
 
 void Console::carry_to(const studio::Studio& before, const studio::Studio& after) {
   fixtures_ = after.fixtures.size();
+  wanted_.tried = {};  // a slot that was nobody's may be somebody's now
   for (rig::SourceState& state : wanted_.sources) {
     std::vector<core::FixtureState> carried(fixtures_);
     for (std::size_t i = 0; i < before.fixtures.size(); ++i)
@@ -84,9 +85,21 @@ void Console::release(std::size_t fixture, std::span<const core::Dof> dofs, port
   manual.fade_s = kReleaseFade;
 }
 
+void Console::try_slots(std::span<const rig::TriedSlot> slots, ports::TimePoint until) {
+  wanted_.tried = {};
+  const std::size_t most = std::min(slots.size(), wanted_.tried.size());
+  std::copy_n(slots.begin(), most, wanted_.tried.begin());
+  wanted_.tried_until_ns = until.time_since_epoch().count();
+}
+
 std::uint64_t Console::blackout(bool on, ports::TimePoint now) {
   wanted_.blackout = on;
   return wanted_.blackout_id = next_id(now);
+}
+
+std::uint64_t Console::motion_stop(bool on, ports::TimePoint now) {
+  wanted_.motion_stop = {on, next_id(now)};
+  return wanted_.motion_stop.id;
 }
 
 const core::FixtureState& Console::held(std::size_t fixture) const {

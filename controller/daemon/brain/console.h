@@ -31,8 +31,11 @@ class Console {
   /// Gives faders back to the look, in a short fade.
   void release(std::size_t fixture, std::span<const core::Dof> dofs, ports::TimePoint now);
   void set_master(std::size_t master, double level) { wanted_.masters[master] = level; }
+  /// Raises slots that no lamp has (the hand sees to that), until then; none: lets them fall.
+  void try_slots(std::span<const rig::TriedSlot> slots, ports::TimePoint until);
   /// The id to wait for in the hand's report.
   std::uint64_t blackout(bool on, ports::TimePoint now);
+  std::uint64_t motion_stop(bool on, ports::TimePoint now);
 
   const core::FixtureState& held(std::size_t fixture) const;
   bool has_look() const;

@@ -6,20 +6,12 @@
 #include "controller/core/picture_file.h"
 #include "controller/daemon/brain/asked.h"
 #include "controller/daemon/brain/brain.h"
+#include "controller/daemon/brain/refusals.h"
 
 namespace chiaro::daemon {
 namespace {
 
-/// Looks that nobody named are kept for undo and for looking back, up to this many.
-constexpr std::size_t kMostNameless = 50;
 constexpr std::size_t kMostHistory = 20;
-constexpr double kSolveAgainFade = 1.0;
-
-panel::Refusal refusal_of(const core::Problems& problems) {
-  const core::Problem first = problems.empty() ? core::Problem{{}, "it failed", ""} : problems[0];
-  return {422, first.what, first.where.file.empty() ? "" : core::to_string(first.where),
-          first.remedy, problems};
-}
 
 /// The studio with its motors where `states` has them.
 void keep_motors(studio::Studio& studio, const std::vector<core::FixtureState>& states) {
@@ -58,14 +50,29 @@ core::Result<design::Goal> Brain::goal_of(const panel::StartDesign& ask) const {
   return core::Problem{{}, "the mood '" + ask.mood + "' is gone", "choose another"};
 }
 
+/// The shipped moods show the shipped bust: on it they need neither alignment nor allowance for
+/// skin and clothes. Anybody else's picture does, and so does any other sitter.
+bool Brain::drawn_on_our_sitter(const panel::StartDesign& ask) const {
+  const bool shipped = std::any_of(moods_.moods.begin(), moods_.moods.end(),
+                                   [&](const design::Mood& mood) { return mood.name == ask.mood; });
+  const auto bust = studio::Folders{world_.config_folder}.subjects() / "bust.ply";
+  std::error_code code;
+  return shipped && !studio_.subjects.empty() &&
+         std::filesystem::equivalent(studio_.subjects.front().mesh, bust, code);
+}
+
 DesignTask Brain::task_of(const panel::StartDesign& ask, design::Goal goal) const {
-  DesignTask task{
-      placements_->placed_studio(studio_), std::move(goal), {}, std::make_shared<JobBoard>()};
+  DesignTask task;
+  task.studio = standing();
+  task.goal = std::move(goal);
+  task.board = std::make_shared<JobBoard>();
+  task.nudge = steps_of(ask.nudges);
   task.options.seed = ask.seed;
   task.options.trials = ask.trials;
   task.options.budget_s = ask.budget_s;
   task.options.move_stands = ask.move_stands;
   task.options.locked = ask.lock;
+  task.options.align = task.options.normalise = !drawn_on_our_sitter(ask);
   for (std::size_t i = 0; i < studio_.fixtures.size(); ++i) {
     const std::string& name = studio_.fixtures[i].name;
     if (placements_->locked(i) &&
@@ -94,8 +101,11 @@ void Brain::carry_out(const panel::StartDesign& ask, const panel::Answer& answer
   if (ready_ && any_error(twin_problems_)) return answer({refusal_of(twin_problems_)});
   auto goal = goal_of(ask);
   if (!goal) return answer({refusal_of(goal.problems())});
+  begin(ask, task_of(ask, std::move(*goal)), answer);
+}
+
+void Brain::begin(const panel::StartDesign& ask, DesignTask task, const panel::Answer& answer) {
   cancel_running();  // the newest click wins
-  DesignTask task = task_of(ask, std::move(*goal));
   Job job{{}, ask, task.board};
   job.view.job = ++jobs_;
   job.view.mood = ask.mood;
@@ -142,6 +152,7 @@ void Brain::finished(std::uint64_t id, core::Result<Designed> result) {
 void Brain::keep(const panel::StartDesign& ask, Designed designed) {
   Live live;
   live.look = std::move(designed.look);
+  live.advice = std::move(designed.by_hand);
   store::LookRecord& record = live.record;
   record.name = ask.title;
   record.mood = ask.mood;
@@ -161,8 +172,10 @@ void Brain::keep(const panel::StartDesign& ask, Designed designed) {
   job_->view.look = *id;
   job_->view.status = panel::JobStatus::done;
   store_->note("look " + std::to_string(*id) + ": " + record.name + ", " + record.verdict);
+  studio::Rig wanted = live.look.wanted, placed = live.look.placed;
   if (ask.apply_fade_s) go_live(std::move(live), *ask.apply_fade_s, true);
   store_->prune_looks(kMostNameless, live_ ? live_->record.id : *id);
+  draw(*id, std::move(wanted), std::move(placed));
 }
 
 std::optional<Brain::Live> Brain::load(std::int64_t id, panel::Refusal& refusal) const {
@@ -176,7 +189,7 @@ std::optional<Brain::Live> Brain::load(std::int64_t id, panel::Refusal& refusal)
     refusal = refusal_of(look.problems());
     return std::nullopt;
   }
-  return Live{std::move(*record), std::move(*look)};
+  return Live{std::move(*record), std::move(*look), {}};
 }
 
 void Brain::go_live(Live live, double fade_s, bool remember_last) {
@@ -186,6 +199,7 @@ void Brain::go_live(Live live, double fade_s, bool remember_last) {
     if (history_.size() > kMostHistory) history_.erase(history_.begin());
   }
   live_ = std::move(live);
+  ++edition_;
   remember_live();
   changed();
   bool stands = true;
@@ -198,6 +212,7 @@ void Brain::go_live(Live live, double fade_s, bool remember_last) {
 void Brain::solve_again(double fade_s) {
   if (!live_) return;
   panel::StartDesign ask = asked_from_json(live_->record.request, live_->record.reference);
+  if (ask.flat) return renew_work_light(fade_s);
   ask.move_stands = false;
   auto goal = can_be_solved(ask) ? goal_of(ask) : core::Problem{{}, "", ""};
   if (!goal) {
@@ -232,27 +247,24 @@ void Brain::solved_again(std::int64_t id, double fade_s, core::Result<Designed> 
   record.placed_picture = std::move(result->placed_png);
   if (auto kept = store_->update_look(record); !kept)
     notes_.push_back(core::to_string(kept.problems()));
+  ++edition_;
   console_->apply(studio_, look.placed, fade_s, world_.clock.now());
+  draw(id, look.wanted, look.placed);
 }
 
-void Brain::carry_out(const panel::Placed& placed, const panel::Answer& answer) {
-  const auto index = studio_.fixture_index(placed.fixture);
-  if (!index) return answer({panel::Refusal{404, "no such fixture", placed.fixture, ""}});
-  core::FixtureState to = placed.at;
-  if (to.present() == 0) {  // "exactly as wanted"
-    const panel::FixtureView view = view_of(*index);
-    if (!view.instruction)
-      return answer({panel::Refusal{409, "'" + placed.fixture + "' need not be moved", "fixture",
-                                    "say where it stands: {\"azimuth_deg\": …}"}});
-    to = view.instruction->to;
-  }
-  placements_->move(*index, to);
-  if (auto kept = store_->set("placed:" + studio_.name, placements_->to_json(studio_)); !kept)
-    return answer({refusal_of(kept.problems())});
-  store_->note(placed.fixture + " has been moved");
-  solve_again(kSolveAgainFade);
-  changed();
-  answer({});
+void Brain::draw(std::int64_t id, studio::Rig wanted, studio::Rig placed) {
+  planner_.draw({standing(), std::move(wanted), std::move(placed)}, [this, here = here_,
+                                                                     id](const Drawn& drawn) {
+    if (!*here) return;
+    if (live_ && live_->record.id == id) {
+      live_->record.picture = drawn.wanted_png;
+      live_->record.placed_picture = drawn.placed_png;
+      ++edition_;
+    }
+    if (auto kept = store_->update_pictures(id, drawn.wanted_png, drawn.placed_png); !kept)
+      notes_.push_back(core::to_string(kept.problems()));
+    changed();
+  });
 }
 
 }  // namespace chiaro::daemon

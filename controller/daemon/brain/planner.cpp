@@ -3,6 +3,7 @@
 
 #include "controller/core/picture_file.h"
 #include "controller/design/geometric_layers.h"
+#include "controller/twin/scene.h"
 
 namespace chiaro::daemon {
 namespace {
@@ -17,7 +18,14 @@ core::Result<Designed> packed(const studio::Studio& studio, design::Look look) {
   std::string json = design::look_to_json(studio, look);
   std::string picture = png_of(look.picture), placed = png_of(look.placed_picture);
   if (placed.empty()) placed = picture;
-  return Designed{std::move(look), std::move(json), std::move(picture), std::move(placed)};
+  return Designed{std::move(look), std::move(json), std::move(picture), std::move(placed), {}};
+}
+
+/// The camera's aspect at no more than 480 rows: sharp on a tablet, drawn in a moment.
+core::Size drawn_size(core::Size camera) {
+  constexpr int kRows = 480;
+  if (camera.height <= kRows) return camera;
+  return {std::max(1, camera.width * kRows / camera.height), kRows};
 }
 
 /// A fault in one job must not take the daemon down with it.
@@ -62,8 +70,43 @@ void Planner::prepare(const studio::Studio& studio, const std::filesystem::path&
     });
     no_layers_ = made.problems();
     layers_ = made ? std::move(*made) : nullptr;
+    {
+      const std::lock_guard lock(tracer_mutex_);
+      tracer_ = layers_ ? design::tracer_of(*layers_) : nullptr;
+    }
     post_([ready, problems = no_layers_] { ready(problems); });
   });
+}
+
+void Planner::draw(DrawTask task, std::function<void(Drawn)> done) {
+  const auto kept = std::make_shared<DrawTask>(std::move(task));
+  painter_.add([this, kept, number = ++drawings_, done = std::move(done)] {
+    daemon::be_modest(modest_);
+    const auto drawn =
+        guarded([&]() -> core::Result<std::optional<Drawn>> { return draw_now(*kept, number); });
+    if (drawn && *drawn) post_([done, result = **drawn] { done(result); });
+  });
+}
+
+std::optional<Drawn> Planner::draw_now(const DrawTask& task, std::uint64_t number) {
+  std::shared_ptr<const render::Tracer> tracer;
+  {
+    const std::lock_guard lock(tracer_mutex_);
+    tracer = tracer_;
+  }
+  if (!tracer || number != drawings_) return std::nullopt;
+  const studio::Camera& camera = task.studio.main_camera();
+  if (seen_with_ != tracer) view_ = render::see(tracer, camera, drawn_size(camera.size));
+  seen_with_ = tracer;
+  const auto png = [&](const studio::Rig& rig) {
+    const std::shared_ptr<const twin::Geometry> geometry(tracer, &tracer->geometry());
+    return png_of(render::picture(*view_, twin::lit_by(task.studio, geometry, rig)));
+  };
+  Drawn drawn;
+  drawn.placed_png = png(task.placed);
+  if (number != drawings_) return std::nullopt;  // somebody wants another by now
+  drawn.wanted_png = task.wanted == task.placed ? drawn.placed_png : png(task.wanted);
+  return drawn;
 }
 
 core::Result<Designed> Planner::solve(DesignTask& task) const {
@@ -80,9 +123,18 @@ core::Result<Designed> Planner::solve(DesignTask& task) const {
     task.board->tell(progress, seconds());
   };
   task.board->started = true;
-  auto look = design::design(task.studio, *layers_, task.goal, task.options);
+  auto look = task.from ? core::Result<design::Look>(std::move(*task.from))
+                        : design::design(task.studio, *layers_, task.goal, task.options);
   if (!look) return look.problems();
-  return packed(task.studio, std::move(*look));
+  if (task.nudge == design::Nudge{}) return packed(task.studio, std::move(*look));
+  design::NudgeOptions options;
+  options.locked = task.options.locked;
+  auto bent = design::nudged(task.studio, *layers_, *look, task.nudge, options);
+  if (!bent) return bent.problems();
+  bent->look.seconds = seconds();
+  auto designed = packed(task.studio, std::move(bent->look));
+  if (designed) designed->by_hand = std::move(bent->by_hand);
+  return designed;
 }
 
 void Planner::add(DesignTask task, std::function<void(core::Result<Designed>)> done) {

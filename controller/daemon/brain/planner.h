@@ -14,7 +14,9 @@
 #include "controller/daemon/brain/worker.h"
 #include "controller/design/design.h"
 #include "controller/design/layers.h"
+#include "controller/design/nudge.h"
 #include "controller/ports/clock.h"
+#include "controller/render/view.h"
 
 namespace chiaro::daemon {
 
@@ -43,11 +45,23 @@ struct DesignTask {
   design::Goal goal;
   design::Options options;
   std::shared_ptr<JobBoard> board;
+  std::optional<design::Look> from;  ///< no search: this look is bent by the nudge
+  design::Nudge nudge;               ///< done to what was found, or to `from`
 };
 /// A look with what a store wants of it.
 struct Designed {
   design::Look look;
   std::string json, picture_png, placed_png;
+  std::vector<std::string> by_hand;  ///< what lamps alone cannot do of a nudge
+};
+
+/// A look as the whole camera will see it, larger than what the search looks at.
+struct DrawTask {
+  studio::Studio studio;
+  studio::Rig wanted, placed;
+};
+struct Drawn {
+  std::string wanted_png, placed_png;
 };
 
 class Planner {
@@ -59,11 +73,14 @@ class Planner {
                std::function<void(core::Problems)> ready);
   /// `done` on the loop, exactly once unless the planner goes first.
   void add(DesignTask task, std::function<void(core::Result<Designed>)> done);
+  /// `done` on the loop, unless a newer drawing was asked for or there is nothing to draw with.
+  void draw(DrawTask task, std::function<void(Drawn)> done);
   /// True: give way to everybody else (the hand lacks real-time rights).
   void be_modest(bool modest) { modest_ = modest; }
 
  private:
   core::Result<Designed> solve(DesignTask& task) const;
+  std::optional<Drawn> draw_now(const DrawTask& task, std::uint64_t number);
 
   ports::Clock& clock_;
   Post post_;
@@ -71,7 +88,13 @@ class Planner {
   // Of the worker's thread alone.
   std::unique_ptr<design::LayersSource> layers_;
   core::Problems no_layers_;
-  Worker worker_;  // last: its thread uses all the others
+  // The painter's: the tracer is handed over by the worker.
+  std::mutex tracer_mutex_;
+  std::shared_ptr<const render::Tracer> tracer_;
+  std::shared_ptr<const render::Tracer> seen_with_;
+  std::optional<render::View> view_;
+  std::atomic<std::uint64_t> drawings_{0};
+  Worker painter_, worker_;  // last: their threads use all the others
 };
 
 }  // namespace chiaro::daemon

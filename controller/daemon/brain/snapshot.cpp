@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The state as the panel shows it, made anew from what the brain knows.
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 #include "controller/core/hash.h"
+#include "controller/core/light_units.h"
+#include "controller/daemon/brain/asked.h"
 #include "controller/daemon/brain/brain.h"
 #include "controller/daemon/brain/words.h"
 #include "controller/design/design.h"
+#include "controller/design/words.h"
 #include "controller/ports/output.h"
 
 namespace chiaro::daemon {
@@ -47,10 +51,42 @@ std::string health_of(const camera::Report& report) {
 
 panel::OutputView view_of_port(const rig::Sent::Port& port) {
   static constexpr const char* kHealth[] = {"closed", "good", "lost"};
-  return {port.universe,      kHealth[std::min<std::size_t>(port.health, 2)],
-          port.rate_hz,       port.frames,
-          port.late,          port.failed,
-          port.jitter_us_p50, port.jitter_us_p99};
+  return {port.universe,       kHealth[std::min<std::size_t>(port.health, 2)],
+          port.rate_hz,        port.frames,
+          port.late,           port.failed,
+          port.jitter_us_p50,  port.jitter_us_p99,
+          port.jitter_us_p999, port.missed,
+          port.slots};
+}
+
+bool is_flash(const studio::Fixture& fixture) {
+  return std::any_of(fixture.by_hand.begin(), fixture.by_hand.end(), [](const auto& binding) {
+    return binding.kind == studio::HandKind::flash_power;
+  });
+}
+
+std::vector<std::pair<std::string, double>> nudges_in_words(const panel::Nudges& nudges) {
+  std::vector<std::pair<std::string, double>> given;
+  for (const auto& [name, stops] :
+       {std::pair{"brighter", nudges.brighter}, std::pair{"softer", nudges.softer},
+        std::pair{"warmer", nudges.warmer}, std::pair{"contrast", nudges.contrast}})
+    if (stops != 0) given.emplace_back(name, stops);
+  return given;
+}
+
+/// What a meter with its dome towards the camera reads at the face: each lamp's light by how far
+/// it comes from the front.
+double lux_on_dome(const studio::Studio& studio, const studio::Rig& rig,
+                   const Placements& placements) {
+  double lux = 0;
+  for (std::size_t i = 0; i < studio.fixtures.size(); ++i) {
+    const studio::Fixture& fixture = studio.fixtures[i];
+    if (fixture.role == studio::Role::background) continue;
+    const core::Spherical from = place_of(studio, fixture, placements.at(i));
+    const double front = std::cos(from.azimuth) * std::cos(from.elevation);
+    lux += design::lux_at_face(studio, rig, i) * (1 + front) / 2;
+  }
+  return lux;
 }
 
 /// A lamp that gives nothing need not be moved.
@@ -58,16 +94,67 @@ constexpr double kWorthMoving = 0.002;
 
 }  // namespace
 
-panel::FixtureView Brain::view_of(std::size_t index) const {
+const studio::Studio& Brain::standing() const {
+  if (!standing_) standing_ = placements_->placed_studio(studio_);
+  return *standing_;
+}
+
+studio::Rig Brain::sent_rig() const {
+  studio::Rig rig = studio::placed_rig(standing());
+  for (std::size_t i = 0; i < rig.states.size(); ++i) {
+    const studio::Fixture& fixture = studio_.fixtures[i];
+    rig.states[i].overlay(light_of(sent_of(sent_, fixture, i)));
+    // What a hand sets goes over no wire.
+    for (const studio::HandBinding& binding : fixture.by_hand)
+      if (placements_->at(i).has(binding.dof) && !core::is_placement(binding.dof))
+        rig.states[i].set(binding.dof, placements_->at(i).get(binding.dof));
+  }
+  return rig;
+}
+
+std::optional<panel::Instruction> Brain::instruction_for(std::size_t index) const {
+  if (!live_ || index >= live_->look.wanted.states.size() || placements_->locked(index))
+    return std::nullopt;
+  const studio::Fixture& fixture = studio_.fixtures[index];
+  const core::FixtureState& aim = live_->look.wanted.states[index];
+  const core::FixtureState& level = live_->look.placed.states[index];
+  const core::FixtureState& now = placements_->at(index);
+  panel::Instruction instruction{fixture.name, "", {}};
+  const bool stand = std::holds_alternative<studio::StandMount>(fixture.mount);
+  if (stand && aim.get(core::Dof::intensity, 1) >= kWorthMoving && !stands_there(aim, now)) {
+    instruction.to = placement_of(aim);
+    instruction.words =
+        fmt::format("move {} to {}", fixture.name,
+                    design::place_in_words(place_of(studio_, fixture, instruction.to)));
+  }
+  for (const studio::HandBinding& binding : fixture.by_hand) {
+    if (binding.kind == studio::HandKind::stand || is_set(binding, level, now)) continue;
+    const double value = level.get(binding.dof);
+    instruction.to.set(binding.dof, value);
+    instruction.words +=
+        (instruction.words.empty() ? "" : "; ") + hand_in_words(fixture, binding, value);
+  }
+  if (instruction.words.empty()) return std::nullopt;
+  return instruction;
+}
+
+panel::FixtureView Brain::view_of(std::size_t index, const studio::Rig& rig) const {
   const studio::Fixture& fixture = studio_.fixtures[index];
   panel::FixtureView view;
   view.name = fixture.name;
   view.role = studio::name_of(fixture.role);
   view.mount = mount_name(fixture.mount);
   view.placed = placements_->at(index);
-  view.sent = light_of(sent_of(sent_, fixture, index));
+  view.sent = light_of(rig.states[index]);
   view.words = design::place_in_words(place_of(studio_, fixture, view.placed));
-  view.level = level_in_words(view.sent.get(core::Dof::intensity));
+  const double level = view.sent.get(core::Dof::intensity);
+  view.level = is_flash(fixture) ? core::flash_power_in_words(level) : level_in_words(level);
+  view.lux = design::lux_at_face(standing(), rig, index);
+  view.light = view.lux > 0 ? core::illuminance_in_words(core::Lux{view.lux}) : "";
+  view.output_cd = standing().fixtures[index].output.value;
+  view.measured = placements_->measured(index).has_value();
+  if (const auto* patch = std::get_if<studio::DmxPatch>(&fixture.patch))
+    view.patch = {patch->universe, patch->address, fixture.profile.modes[fixture.mode].footprint};
   if (view.sent.get(core::Dof::intensity) > 0) view.colour = colour_in_words(fixture, view.sent);
   view.manual = console_->held(index);
   view.limits = fixture.ranges();
@@ -79,20 +166,11 @@ panel::FixtureView Brain::view_of(std::size_t index) const {
   const core::FixtureState& aim = live_->look.wanted.states[index];
   view.wanted = light_of(live_->look.placed.states[index]);
   view.wanted.overlay(placement_of(aim));
-  const bool stand = std::holds_alternative<studio::StandMount>(fixture.mount);
-  if (!stand || view.locked || aim.get(core::Dof::intensity, 1) < kWorthMoving ||
-      stands_there(aim, view.placed))
-    return view;
-  const core::FixtureState to = placement_of(aim);
-  view.instruction =
-      panel::Instruction{fixture.name,
-                         fmt::format("move {} to {}", fixture.name,
-                                     design::place_in_words(place_of(studio_, fixture, to))),
-                         to};
+  view.instruction = instruction_for(index);
   return view;
 }
 
-std::optional<panel::LookView> Brain::live_view() const {
+std::optional<panel::LookView> Brain::live_view(const studio::Rig& rig) const {
   if (!live_) return std::nullopt;
   const design::Look& look = live_->look;
   panel::LookView view;
@@ -102,8 +180,16 @@ std::optional<panel::LookView> Brain::live_view() const {
   view.verdict = design::name_of(look.judgement.verdict);
   view.verdict_when_placed = design::name_of(look.placed_judgement.verdict);
   view.remedy = look.placed_judgement.remedy;
-  if (const auto ratio = design::key_fill_ratio(placements_->placed_studio(studio_), look.placed))
-    view.ratio = ratio_in_words(*ratio);
+  if (const auto ratio = design::key_fill_ratio(standing(), look.placed))
+    view.ratio = core::ratio_in_words(*ratio);
+  if (const double lux = lux_on_dome(standing(), rig, *placements_); lux > 0)
+    view.light = core::illuminance_in_words(core::Lux{lux});
+  const panel::StartDesign ask = asked_from_json(live_->record.request, live_->record.reference);
+  view.nudges = nudges_in_words(ask.nudges);
+  view.can_nudge = true;
+  view.advice = live_->advice;
+  view.kept = live_->record.kept;
+  view.edition = edition_;
   // Until the hand has seen this fade, what it reports is the end of the last one.
   constexpr auto kLook = static_cast<std::size_t>(rig::Source::look);
   const bool seen = sent_ && sent_->fade_id[kLook] >= console_->wanted().sources[kLook].fade_id;
@@ -130,14 +216,20 @@ void Brain::renew_state() {
   s.real_time = sent_ && sent_->real_time;
   s.caution = sent_ ? rig::name_of(sent_->caution) : "normal";
   s.blackout = hand_alive_ && sent_ ? sent_->blackout : console_->wanted().blackout;
+  s.motion_stopped = sent_ && sent_->motion_stop.on;
+  s.motion_armed = sent_ && sent_->motion_armed.on;
+  s.axes_waiting = sent_ ? sent_->axes_waiting : 0;
   s.masters = console_->wanted().masters;
-  s.look = live_view();
+  const studio::Rig rig = sent_rig();
+  s.look = live_view(rig);
   s.design = job_ ? std::optional(job_->view) : std::nullopt;
   s.fixtures.clear();
-  for (std::size_t i = 0; i < studio_.fixtures.size(); ++i) s.fixtures.push_back(view_of(i));
+  for (std::size_t i = 0; i < studio_.fixtures.size(); ++i) s.fixtures.push_back(view_of(i, rig));
   s.outputs.clear();
   if (hand_alive_ && sent_)
     for (const rig::Sent::Port& port : sent_->ports) s.outputs.push_back(view_of_port(port));
+  const bool trying = !tried_.levels.empty() && world_.clock.now() < tried_until_;
+  s.tried = trying ? panel::TriedView{tried_.universe, tried_.levels} : panel::TriedView{};
   s.problems = warnings_;
   s.problems.insert(s.problems.end(), moods_.problems.begin(), moods_.problems.end());
   s.problems.insert(s.problems.end(), twin_problems_.begin(), twin_problems_.end());
@@ -161,10 +253,10 @@ void Brain::renew_state() {
                           false});
   s.moods.clear();
   for (const design::Mood& mood : moods_.moods)
-    s.moods.push_back(
-        {mood.name, mood.title, mood.sentence, mood.tags.words(), mood.attainable, false});
+    s.moods.push_back({mood.name, mood.title, mood.sentence, mood.tags.words(), mood.attainable,
+                       false, mood.words, design::turn_in_words(mood.sitter_turn)});
   for (const store::MoodRecord& mood : store_->moods())
-    s.moods.push_back({mood.name, mood.title, "Your own picture", {}, true, true});
+    s.moods.push_back({mood.name, mood.title, "Your own picture", {}, true, true, {}, ""});
   s.can_undo = !history_.empty();
 }
 

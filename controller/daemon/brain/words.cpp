@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "controller/daemon/brain/words.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
+
+#include "controller/core/light_units.h"
 
 namespace chiaro::daemon {
 
@@ -41,6 +45,50 @@ std::string colour_in_words(const studio::Fixture& fixture, const core::FixtureS
 std::string ratio_in_words(double ratio) {
   const double shown = ratio < 10 ? std::round(10 * ratio) / 10 : std::round(ratio);
   return fmt::format("{:g}:1", shown);
+}
+
+std::string gel_in_words(double from_k, double to_k) {
+  struct Gel {
+    double mired;
+    const char* name;
+  };
+  // Shifts in mired as Lee Filters print them.
+  static constexpr Gel kGels[] = {{159, "full CTO (Lee 204)"},
+                                  {109, "½ CTO (Lee 205)"},
+                                  {64, "¼ CTO (Lee 206)"},
+                                  {26, "⅛ CTO (Lee 223)"},
+                                  {0, ""},
+                                  {-18, "⅛ CTB (Lee 218)"},
+                                  {-35, "¼ CTB (Lee 203)"},
+                                  {-78, "½ CTB (Lee 202)"},
+                                  {-137, "full CTB (Lee 201)"}};
+  const double wanted = 1e6 / to_k - 1e6 / from_k;
+  return std::min_element(std::begin(kGels), std::end(kGels),
+                          [&](const Gel& a, const Gel& b) {
+                            return std::fabs(a.mired - wanted) < std::fabs(b.mired - wanted);
+                          })
+      ->name;
+}
+
+std::string hand_in_words(const studio::Fixture& fixture, const studio::HandBinding& binding,
+                          double value) {
+  const std::string& name = fixture.name;
+  const bool kelvin = binding.dof == core::Dof::cct;
+  if (binding.kind == studio::HandKind::flash_power)
+    return "set " + name + " to " + core::flash_power_in_words(value);
+  if (binding.kind == studio::HandKind::gel && kelvin) {
+    const std::string gel = gel_in_words(fixture.profile.emitter.cct.value, value);
+    return gel.empty() ? "take the gel off " + name
+                       : fmt::format("put {} on {}, for {:.0f} K", gel, name, value);
+  }
+  if (binding.kind == studio::HandKind::gel)
+    return fmt::format("put a {} gel on {} ({:+.0f})", value > 0 ? "green" : "magenta", name,
+                       value);
+  if (kelvin) return fmt::format("turn {}'s colour to {:.0f} K", name, value);
+  if (binding.dof == core::Dof::intensity)
+    return fmt::format("turn {}'s level to {}", name, core::level_in_words(value));
+  return fmt::format("turn {}'s {} to {}", name, core::info(binding.dof).name,
+                     core::number(core::file_value(binding.dof, value), 2));
 }
 
 std::string_view mount_name(const studio::Mount& mount) {

@@ -16,6 +16,12 @@ std::string level_in_words(double intensity);
 std::string colour_in_words(const studio::Fixture& fixture, const core::FixtureState& state);
 /// "4:1", "2.8:1".
 std::string ratio_in_words(double ratio);
+/// What a person does to the lamp itself: "set key to 1/4 power", "put ½ CTO (Lee 205) on key, for
+/// 4300 K", "turn key's level to 62 %".
+std::string hand_in_words(const studio::Fixture& fixture, const studio::HandBinding& binding,
+                          double value);
+/// The gel that turns one white into the other: "½ CTO (Lee 205)"; "" when none is needed.
+std::string gel_in_words(double from_k, double to_k);
 std::string_view mount_name(const studio::Mount& mount);
 /// Where a lamp is, as seen from what it lights; for stands from their placement.
 core::Spherical place_of(const studio::Studio& studio, const studio::Fixture& fixture,

@@ -195,6 +195,8 @@ core::Result<core::Done> Demo::run_until_stopped() {
     const auto made =
         make_look(link(), arguments_.mood, kFade_s, {world_.err, world_.err_is_terminal});
     if (!made) return made.problems();
+  } else if (auto lit = light_to_begin_with(link()); !lit) {
+    return lit;
   }
   world_.out << "\nChiaro's demo is running: " << lamps_
              << " virtual lamps and a camera, nothing plugged in.\n\n"

@@ -191,6 +191,15 @@ core::Result<core::Done> wait_until_ready(const DemoLink& link, double patience_
   return core::Done{};
 }
 
+core::Result<core::Done> light_to_begin_with(const DemoLink& link) {
+  const auto state = ask_json(link, "GET", "/api/v1/state");
+  if (!state) return state.problems();
+  if (!state->value("look", Json()).is_null()) return core::Done{};
+  const auto lit = ask(link, "POST", "/api/v1/work-light", "{}");
+  if (!lit) return lit.problems();
+  return core::Done{};
+}
+
 core::Result<MadeLook> make_look(const DemoLink& link, const std::string& mood, double fade_s,
                                  Teller tell) {
   const double start = link.seconds();

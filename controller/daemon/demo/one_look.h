@@ -27,6 +27,9 @@ struct DemoLink {
 /// Until the daemon answers, its studio is prepared and the hand is connected.
 core::Result<core::Done> wait_until_ready(const DemoLink& link, double patience_s);
 
+/// Work light, so that there is a sitter to see, unless a look is live already.
+core::Result<core::Done> light_to_begin_with(const DemoLink& link);
+
 /// Where progress is told: on a terminal on one line that changes, else when the stage changes.
 struct Teller {
   std::ostream& out;

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// A lamp without a profile: its slots are raised while a person looks, and what the person saw
+// becomes a profile file and an entry of the studio file.
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "controller/daemon/brain/brain.h"
+#include "controller/daemon/brain/refusals.h"
+#include "controller/daemon/interview/answers.h"
+#include "controller/daemon/interview/learnt.h"
+#include "controller/design/starts.h"
+#include "controller/studio/words.h"
+
+namespace chiaro::daemon {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// The page repeats its word every few seconds; silence lets the slots fall.
+constexpr ports::Duration kTry = std::chrono::seconds(10);
+
+std::string read(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/// Beside the file and then into its place: nothing is ever half written.
+core::Result<core::Done> write(const fs::path& file, const std::string& text) {
+  std::error_code code;
+  fs::create_directories(file.parent_path(), code);
+  fs::path draft = file;
+  draft += ".new";
+  std::ofstream out(draft, std::ios::binary | std::ios::trunc);
+  out << text;
+  out.close();
+  if (out) fs::rename(draft, file, code);
+  if (out && !code) return core::Done{};
+  fs::remove(draft, code);
+  return core::Problem{{file, 0, 0},
+                       "this file cannot be written",
+                       "copy the lines into it by hand, or give this user the right to write it"};
+}
+
+interview::LearntLamp learnt(const panel::LearnLamp& seen) {
+  interview::LearntLamp lamp;
+  lamp.profile = interview::profile_name(seen.name);
+  lamp.maker = seen.maker;
+  lamp.model = seen.model;
+  lamp.output_cd = seen.output_cd;
+  lamp.cct = seen.cct;
+  for (const auto& slot : seen.slots) lamp.slots.push_back({slot.sees, slot.level});
+  return lamp;
+}
+
+}  // namespace
+
+void Brain::carry_out(const panel::TrySlots& slots, const panel::Answer& answer) {
+  tried_ = slots;
+  tried_until_ = world_.clock.now() + kTry;
+  std::vector<rig::TriedSlot> raised;
+  for (const auto& [slot, level] : slots.levels) raised.push_back({slots.universe, slot, level});
+  console_->try_slots(raised, raised.empty() ? ports::TimePoint{} : tried_until_);
+  changed();
+  answer({});
+}
+
+void Brain::carry_out(const panel::LearnLamp& seen, const panel::Answer& answer) {
+  const interview::LearntLamp lamp = learnt(seen);
+  const auto profile = interview::profile_yaml(lamp);
+  if (!profile) return answer({refusal_of(profile.problems())});
+  const auto place = studio::place_from_words(seen.place);
+  if (!place) return answer({refusal_of(place.problems())});
+  const interview::Lamp entry{seen.name,
+                              seen.role,
+                              lamp.profile,
+                              interview::kLearntMode,
+                              seen.universe,
+                              seen.address,
+                              static_cast<int>(seen.slots.size()),
+                              *place,
+                              seen.on_stand};
+  const std::string lines =
+      interview::lamp_yaml(entry, design::estimated_aim(studio_), std::nullopt);
+  const fs::path file = studio_.file.parent_path() / "fixtures" / (lamp.profile + ".yaml");
+  Json json = {{"profile", lamp.profile},  {"profile_file", file.string()},
+               {"profile_yaml", *profile}, {"studio_file", studio_.file.string()},
+               {"studio_lines", lines},    {"added", seen.add}};
+  if (!seen.add) return answer({{}, 200, json.dump()});
+  const auto changed_file = interview::with_fixture(read(studio_.file), lines);
+  if (!changed_file) return answer({refusal_of(changed_file.problems())});
+  if (auto written = write(file, *profile); !written)
+    return answer({refusal_of(written.problems(), 409)});
+  // The whole studio is read with it before a byte of its file changes.
+  const auto loaded =
+      studio::parse_studio(*changed_file, studio_.file.parent_path(), {world_.config_folder});
+  std::error_code ignored;
+  if (!loaded) {
+    fs::remove(file, ignored);
+    return answer({refusal_of(loaded.problems())});
+  }
+  if (auto written = write(studio_.file, *changed_file); !written)
+    return answer({refusal_of(written.problems(), 409)});
+  store_->note("learned " + seen.name + ", " + lamp.profile);
+  carry_out(panel::TrySlots{}, [](const panel::Outcome&) {});
+  carry_out(panel::Reload{}, [answer, text = json.dump()](const panel::Outcome& reloaded) {
+    answer(reloaded.refused ? reloaded : panel::Outcome{{}, 201, text});
+  });
+}
+
+}  // namespace chiaro::daemon
