@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The main task on the real programs: a photographer clicks Rembrandt and the studio is lit so.
+// The main task on the real programs: a photographer clicks Rembrandt and the studio is lit so;
+// then each thing that may fail in a studio, fails.
 import assert from 'node:assert/strict';
+import { readFile } from 'node:fs/promises';
 import { after, before, test } from 'node:test';
 import { openBrowser } from './browser.mjs';
+import { png } from './mock_daemon.mjs';
 import { startStudio } from './studio.mjs';
 
 const bin = process.env.CHIARO_BIN;
@@ -44,25 +47,56 @@ async function until(what, condition) {
   }
   assert.fail(`${what}\n${JSON.stringify(await studio.state())}\n${studio.output()}`);
 }
+const levels = (state) => state.fixtures.map((f) => f.sent.intensity);
+const faded = () => until('the fade does not end', async () => (await studio.state()).look?.fade === 1);
 
-test('one click on Rembrandt lights the studio, with progress on the way', async () => {
+test('work light shows the sitter evenly before any mood', async () => {
   await page.locator('.status', { hasText: 'lights connected' }).waitFor();
-  await page.locator('.card[data-mood=rembrandt]').click();
-  await page.locator('#progress', { hasText: 'Trial' }).waitFor();
-  await page.locator('#stage[data-kind=done]').waitFor();
-  assert.match(await page.locator('#stage .result').innerText(), /key to fill [\d.]+:1/);
-  await page.locator('.card[data-mood=rembrandt] .badge', { hasText: 'on now' }).waitFor();
+  await page.getByRole('button', { name: 'Work light' }).click();
+  await page.locator('#look-title', { hasText: 'Work light' }).waitFor();
+  await until('the camera stays dark', async () => (await brightness('camera')) > 20);
+  const { fixtures } = await studio.state();
+  const [key, fill] = ['key', 'fill'].map((name) => fixtures.find((f) => f.name === name).lux);
+  assert.ok(Math.abs(Math.log2(key / fill)) < 0.1, `${key} lx and ${fill} lx`);
 });
 
-test('reference, preview and camera can be seen, and the camera sees the light', async () => {
+test('one click on Rembrandt lights the studio, and before and after can be compared', async () => {
+  const seen = await page.evaluateHandle(() => {
+    const jobs = [];
+    const socket = new WebSocket(`ws://${location.host}/api/v1/events`);
+    socket.onmessage = ({ data }) => {
+      const message = JSON.parse(data);
+      if (message.type === 'design') jobs.push(message.design.status);
+    };
+    return jobs;
+  });
+  await faded();
+  await page.locator('.card[data-mood=rembrandt]').click();
+  await page.getByLabel('Divider between Before and Camera').waitFor();
+  await page.locator('.card[data-mood=rembrandt] .badge', { hasText: 'on now' }).waitFor();
+  await page.locator('#stage[data-kind=done]').waitFor();
+  assert.match(await page.locator('#stage .facts').innerText(), /Key to fill\s+[\d.]+:1/);
+  assert.ok((await brightness('before')) > 20);
+  await until('no event told of the job', async () => (await seen.jsonValue()).includes('done'));
+});
+
+test('reference, preview and camera lie side by side, and the camera sees the light', async () => {
+  await page.getByRole('button', { name: 'Side by side' }).click();
   for (const id of ['reference', 'preview', 'camera'])
     await page.locator(`#${id} img`).waitFor({ state: 'visible' });
   assert.ok((await brightness('reference')) > 5);
-  assert.ok((await brightness('preview')) > 5);
+  await until('the preview stays dark', async () => (await brightness('preview')) > 5);
   await until('the camera stays dark', async () => (await brightness('camera')) > 5);
   const key = await page.locator('#lights li[data-fixture=key]').innerText();
-  assert.match(key, /camera left|camera right|to camera/);
+  assert.match(key, /camera left|camera right|to camera|azimuth/);
   assert.match(key, /%.*below full|full/);
+  assert.match(key, /lx \([\d.]+ fc\)/);
+  await page.getByRole('button', { name: 'Divider', exact: true }).click();
+});
+
+test('the preview becomes as large as the camera\'s picture', async () => {
+  await until('no larger preview came', () =>
+    page.locator('#preview img').evaluate((image) => image.naturalWidth === 640 && image.naturalHeight === 480));
 });
 
 test('a stand is moved by a person, and the levels follow', async () => {
@@ -78,9 +112,50 @@ test('a stand is moved by a person, and the levels follow', async () => {
   await until('the levels did not follow', async () => wanted(await studio.state()) !== wanted(before));
 });
 
+test('a nudge makes it brighter, undo takes it back', async () => {
+  await faded();
+  const before = await studio.state();
+  await page.getByRole('button', { name: 'Brighter, a quarter stop' }).click();
+  await page.locator('[data-nudge=brighter] output', { hasText: '+¼' }).waitFor();
+  await faded();
+  const sum = (state) => state.fixtures.reduce((lux, f) => lux + f.lux, 0);
+  await until('it did not get brighter', async () => sum(await studio.state()) > 1.05 * sum(before));
+  await page.getByRole('button', { name: 'Undo' }).click();
+  await until('undo did not take it back', async () => {
+    const now = await studio.state();
+    return now.look.id === before.look.id && now.look.fade === 1;
+  });
+});
+
+test('a look is saved, and recalled after another', async () => {
+  await page.getByRole('button', { name: /^Save/ }).click();
+  await page.getByLabel('Name', { exact: true }).fill('Anna');
+  await page.getByRole('button', { name: 'Save', exact: true }).click();
+  await page.locator('#look-title', { hasText: 'Anna' }).waitFor();
+  const { look } = await studio.state();
+  await page.getByRole('button', { name: 'Work light' }).click();
+  await page.locator('#look-title', { hasText: 'Work light' }).waitFor();
+  await page.getByRole('tab', { name: /Saved looks/ }).click();
+  await page.locator(`[data-look="${look.id}"]`).click();
+  await page.locator('#look-title', { hasText: 'Anna' }).waitFor();
+  await page.getByRole('tab', { name: 'Moods' }).click();
+});
+
+test('a photograph of one\'s own is lit like, and stays on the wall', async () => {
+  await page.locator('#own').setInputFiles({ name: 'by_the_window.png', mimeType: 'image/png', buffer: png(210, 170, 130) });
+  await page.locator('.card[data-mood=by-the-window] .badge', { hasText: 'on now' }).waitFor();
+  await page.locator('#look-title', { hasText: 'by the window' }).waitFor();
+});
+
+test('a file that is no picture is refused with words', async () => {
+  await page.locator('#own').setInputFiles({ name: 'a.png', mimeType: 'image/png', buffer: Buffer.from('no picture at all') });
+  await page.getByRole('alert').waitFor();
+  assert.ok((await page.locator('#refusal').innerText()).length > 30);
+  await page.getByRole('button', { name: 'Close' }).click();
+});
+
 test('blackout darkens at once and gives back the same light', async () => {
-  const levels = (state) => state.fixtures.map((f) => f.sent.intensity);
-  await until('the fade does not end', async () => (await studio.state()).look.fade === 1);
+  await faded();
   const lit = levels(await studio.state());
   const button = page.locator('button.blackout');
   await button.click();
@@ -92,11 +167,33 @@ test('blackout darkens at once and gives back the same light', async () => {
     levels(await studio.state()).every((level, i) => Math.abs(level - lit[i]) < 1e-6));
 });
 
+test('a lamp without a profile is learned on the wire and added to the studio', async () => {
+  await page.getByRole('button', { name: 'Technician' }).click();
+  await page.getByLabel('What you call it').fill('old panel');
+  await page.getByLabel('First slot').fill('101');
+  await page.getByLabel('Slots to look at').fill('2');
+  await page.getByRole('button', { name: 'Begin' }).click();
+  await page.getByRole('button', { name: 'Raise slot 101' }).click();
+  await page.locator('.slots li[data-slot="101"]', { hasText: '255' }).waitFor();
+  await page.getByLabel('What slot 101 does').selectOption('dimmer');
+  await page.getByLabel('What slot 102 does').selectOption('fine');
+  await page.getByRole('button', { name: 'Add it to the studio' }).click();
+  await page.getByText('Added: the studio has been read again with it.').waitFor();
+  assert.match(await readFile(studio.file, 'utf8'), /profile: own\/old-panel/);
+  await page.getByRole('button', { name: 'Studio', exact: true }).click();
+  await page.locator('#lights li[data-fixture="old panel"]').waitFor();
+  await until('the output process did not take the new file', async () => {
+    const now = await studio.state();
+    return now.hand.connected && !now.hand.refused;
+  });
+});
+
 test('the daemon may die: the page says so, and it comes back with the same look', async () => {
+  await faded();
   const before = await studio.state();
-  await studio.killDaemon();
+  await studio.kill('daemon');
   await page.locator('#lost').waitFor({ state: 'visible' });
-  await studio.restartDaemon();
+  await studio.restart('daemon');
   await page.locator('#lost').waitFor({ state: 'hidden' });
   const after = await studio.state();
   assert.equal(after.look.id, before.look.id);
@@ -105,4 +202,19 @@ test('the daemon may die: the page says so, and it comes back with the same look
     const now = await studio.state();
     return now.fixtures.every((f, i) => f.sent.intensity === before.fixtures[i].sent.intensity);
   });
+});
+
+test('a camera that goes is told, and comes back by itself', async () => {
+  await studio.kill('simulator');
+  await page.locator('#camera .note', { hasText: 'lost, the last picture' }).waitFor();
+  await studio.restart('simulator');
+  await page.locator('#camera .note', { hasText: 'live' }).waitFor();
+});
+
+test('an output process that goes is told in large words, and comes back', async () => {
+  await studio.kill('hand');
+  await page.locator('#hand-gone').waitFor({ state: 'visible' });
+  await page.locator('.status', { hasText: 'lights out of reach' }).waitFor();
+  await studio.restart('hand');
+  await page.locator('#hand-gone').waitFor({ state: 'hidden' });
 });

@@ -50,16 +50,24 @@ export function png(...hue) {
 }
 
 export const moods = [
-  ['rembrandt', 'Rembrandt', 'A small triangle of light on the far cheek', [230, 180, 130]],
-  ['split', 'Split', 'Half the face in light, half in the dark', [200, 200, 210]],
-  ['high-key', 'High key', 'Bright, open and almost without shadow', [250, 248, 240]],
-  ['low-key', 'Low key', 'Little light, much dark', [120, 100, 90]],
-  ['golden-hour', 'Golden hour', 'Late sun from one side, warm and low', [255, 170, 80]],
+  ['rembrandt', 'Rembrandt', 'A small triangle of light on the far cheek', [230, 180, 130], ['low key', 'hard']],
+  ['split', 'Split', 'Half the face in light, half in the dark', [200, 200, 210], ['low key', 'hard']],
+  ['high-key', 'High key', 'Bright, open and almost without shadow', [250, 248, 240], ['high key', 'soft']],
+  ['low-key', 'Low key', 'Little light, much dark', [120, 100, 90], ['low key', 'soft']],
+  ['golden-hour', 'Golden hour', 'Late sun from one side, warm and low', [255, 170, 80], ['warm', 'hard']],
+  ['loop', 'Loop', 'A small loop of shadow beside the nose', [225, 200, 180], ['middle key', 'soft']],
+  ['butterfly', 'Butterfly', 'Light from high in front', [240, 220, 200], ['high key', 'hard']],
+  ['moonlight', 'Moonlight', 'Cold light from behind and above', [110, 130, 180], ['cool', 'hard']],
+  ['candlelight', 'Candlelight', 'One small warm flame', [220, 130, 50], ['warm', 'low key']],
 ];
-const moodList = moods.map(([name, title, sentence]) => ({
-  name, title, sentence, tags: [], attainable: true, own: false,
-  picture: `/api/v1/moods/${name}/picture`,
+const moodList = moods.map(([name, title, sentence, , tags]) => ({
+  name, title, sentence, tags, words: name === 'moonlight' ? ['night'] : [], turn: '', attainable: true,
+  own: false, picture: `/api/v1/moods/${name}/picture`,
 }));
+export const saved = [
+  { id: 3, name: 'Rembrandt', mood: 'rembrandt', verdict: 'near', created: '2026-01-01T10:00:00Z', live: true, kept: false, picture: '/api/v1/looks/3/picture' },
+  { id: 2, name: 'Anna, morning', mood: 'loop', verdict: 'reached', created: '2026-01-01T09:00:00Z', live: false, kept: true, picture: '/api/v1/looks/2/picture' },
+];
 
 const level = (intensity) =>
   intensity > 0
@@ -68,13 +76,16 @@ const level = (intensity) =>
 const fixture = (name, role, words, intensity, colour, more = {}) => ({
   name, role, mount: 'stand', words, level: level(intensity), colour, wanted: {},
   placed: { azimuth_deg: -45, elevation_deg: 35, distance_m: 1.8 }, sent: { intensity },
+  light: intensity > 0 ? `${Math.round(1000 * intensity)} lx (${Math.round(92.9 * intensity)} fc)` : '',
+  lux: 1000 * intensity, output_cd: 12000, measured: false, patch: null,
   manual: {}, limits: { intensity: [0, 1] }, locked: false, controlled: true,
   by_hand: ['azimuth_deg', 'elevation_deg', 'distance_m'], instruction: null, ...more,
 });
 const hung = { mount: 'fixed', by_hand: [], placed: {} };
+const at = (address, slots) => ({ patch: { universe: 1, address, slots } });
 const lights = (key, fill, back) => [
-  fixture('key', 'key', '45° camera left, 35° up, 1.8 m', key, '4300 K'),
-  fixture('fill', 'fill', '50° camera right, 20° up, 2.0 m', fill, '4300 K'),
+  fixture('key', 'key', '45° camera left, 35° up, 1.8 m', key, '4300 K', at(1, 4)),
+  fixture('fill', 'fill', '50° camera right, 20° up, 2.0 m', fill, '4300 K', at(5, 4)),
   fixture('back', 'back', '144° camera left, 32° up, 1.8 m', back, '', hung),
   fixture('wall', 'background', '120° camera right, 5° down, 2.1 m', 0, '', hung),
 ];
@@ -85,10 +96,12 @@ export function quiet() {
     version: 1,
     studio: { name: 'portrait three-point', file: '/studios/portrait.yaml', fingerprint: '0', ready: true, stage: '' },
     hand: { connected: true, refused: false, real_time: true },
-    caution: 'normal', blackout: false,
+    caution: 'normal', blackout: false, motion: { stopped: false, armed: false, axes_waiting: 0 },
     masters: { grand: 1, key: 1, fill: 1, back: 1, background: 1 },
     look: null, design: null, fixtures: lights(0, 0, 0), instructions: [],
-    outputs: [{ universe: 1, health: 'good', rate_hz: 40, frames: 1, late: 0, failed: 0, jitter_us_p50: 1, jitter_us_p99: 2 }],
+    outputs: [{ universe: 1, health: 'good', rate_hz: 40, frames: 1, late: 0, missed: 0, failed: 0,
+      jitter_us_p50: 41, jitter_us_p99: 310, jitter_us_p999: 1240 }],
+    tried: {},
     cameras: [{ name: 'main', health: 'good', frames: 1, reconnects: 0,
       picture: '/api/v1/cameras/main/picture', stream: '/api/v1/cameras/main/stream' }],
     problems: [], can_undo: false,
@@ -111,7 +124,8 @@ export function done() {
   state.fixtures[0].instruction = move;
   state.instructions = [{ fixture: 'key', ...move }];
   state.look = { id: 3, name: 'Rembrandt', mood: 'rembrandt', verdict: 'reached',
-    verdict_when_placed: 'near', remedy: '', ratio: '4:1', fade: 1,
+    verdict_when_placed: 'near', remedy: '', ratio: '4:1 (2 stops)', light: '800 lx (74 fc)', nudges: { warmer: 0.5 }, advice: [],
+    can_nudge: true, kept: false, edition: 2, fade: 1,
     picture: '/api/v1/looks/3/picture', placed_picture: '/api/v1/looks/3/placed_picture',
     reference: '/api/v1/moods/rembrandt/picture', trials: 4000, seconds: 0.84 };
   state.design = { ...working().design, status: 'done', stage: '', trial: 4000, look: 3 };
@@ -133,6 +147,16 @@ export function failed() {
   return state;
 }
 
+/** The output process is gone. */
+export function handGone() {
+  const state = done();
+  state.hand.connected = false;
+  state.outputs = [];
+  state.problems = [{ what: 'the output process does not answer', where: '',
+    remedy: 'start chiaro-output with the same studio file', warning: false }];
+  return state;
+}
+
 export function dark() {
   return { ...done(), blackout: true, caution: 'blackout' };
 }
@@ -147,11 +171,15 @@ export async function mockDaemon(web, state, port = 0) {
 
   async function answer(method, path, body) {
     if (method !== 'GET') {
-      requests.push({ method, path, body: body ? JSON.parse(body) : null });
-      const refusal = answers.get(`${method} ${path}`);
-      return { status: refusal?.status ?? 200, json: refusal ? { error: refusal.error } : {} };
+      requests.push({ method, path, body: body.startsWith('{') ? JSON.parse(body) : body || null });
+      const given = answers.get(`${method} ${path}`);
+      return { status: given?.status ?? 200, json: given ? (given.error ? { error: given.error } : given.json) : {} };
     }
     if (path === '/api/v1/state') return { json: now };
+    if (path === '/api/v1/looks') return { json: { looks: now.look ? saved : saved.slice(1) } };
+    if (path === '/api/v1/outputs/1/slots')
+      return { json: { universe: 1, slots: Array.from({ length: 512 }, (_, i) => (i < 8 ? 20 * i : 0)),
+        owners: [{ fixture: 'key', first: 1, last: 4 }, { fixture: 'fill', first: 5, last: 8 }] } };
     if (path === '/api/v1/moods') return { json: { moods: moodList } };
     if (path.startsWith('/api/')) {
       const mood = moods.find(([name]) => path.includes(`/${name}/`));
@@ -164,7 +192,7 @@ export async function mockDaemon(web, state, port = 0) {
 
   const server = createServer(async (request, response) => {
     let body = '';
-    for await (const piece of request) body += piece;
+    for await (const piece of request) body += piece.toString('latin1');
     const path = new URL(request.url, 'http://localhost').pathname;
     const { status = 200, type, bytes, json } = await answer(request.method, path, body);
     response.writeHead(status, { 'Content-Type': json ? 'application/json' : (type ?? 'text/plain') });
@@ -189,6 +217,7 @@ export async function mockDaemon(web, state, port = 0) {
       }
     },
     refuse: (route, status, error) => answers.set(route, { status, error }),
+    answer: (route, json) => answers.set(route, { status: 200, json }),
     tell(next) {
       now = next;
       for (const client of listeners.clients) client.send(event());

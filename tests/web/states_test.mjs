@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { after, afterEach, before, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { openBrowser } from './browser.mjs';
-import { dark, done, failed, mockDaemon, quiet, working } from './mock_daemon.mjs';
+import { dark, done, failed, handGone, mockDaemon, png, quiet, working } from './mock_daemon.mjs';
 
 const web = process.env.CHIARO_WEB ?? fileURLToPath(new URL('../../controller/panel/web/dist', import.meta.url));
 let browser;
@@ -32,8 +32,10 @@ const text = (selector) => page.locator(selector).innerText();
 
 test('an empty studio invites to choose a mood', async () => {
   await open(quiet());
-  assert.equal(await page.locator('.card[data-mood]').count(), 5);
+  assert.equal(await page.locator('.card[data-mood]').count(), 9);
   assert.match(await text('#stage'), /Choose a mood/);
+  await page.getByRole('button', { name: 'Work light' }).click();
+  await daemon.click((r) => r.path === '/api/v1/work-light');
   assert.equal(await page.locator('#instructions').isVisible(), false);
   assert.deepEqual(page.faults, []);
 });
@@ -49,8 +51,7 @@ test('one click designs and applies', async () => {
 test('progress shows trials, best and time, and can be cancelled', async () => {
   await open(working());
   const words = await text('#progress');
-  assert.match(words, /Trial 1,240 of 4,000/);
-  assert.match(words, /Best 0\.0524 · 0\.3 s/);
+  assert.match(words, /Trial 1,240 of 4,000 · 0\.3 s/);
   await page.getByRole('button', { name: 'Cancel' }).click();
   const request = await daemon.click((r) => r.method === 'DELETE');
   assert.equal(request.path, '/api/v1/design/5');
@@ -58,20 +59,153 @@ test('progress shows trials, best and time, and can be cancelled', async () => {
 
 test('a finished look stands beside its reference and the camera, in the trade\'s words', async () => {
   await open(done());
+  await page.getByRole('button', { name: 'Side by side' }).click();
   for (const id of ['reference', 'preview', 'camera'])
     await page.locator(`#${id} img`).waitFor({ state: 'visible' });
   assert.match(await text('#stage'), /Rembrandt/);
-  assert.match(await text('#stage'), /key to fill 4:1/);
+  assert.match(await text('#stage'), /Key to fill\s+4:1 \(2 stops\)/);
+  assert.match(await text('#stage'), /At the face\s+800 lx \(74 fc\)/);
   const key = await text('#lights li[data-fixture=key]');
   assert.match(key, /45° camera left, 35° up, 1\.8 m/);
   assert.match(key, /62 %, 0\.7 stops below full/);
   assert.match(key, /4300 K/);
+  assert.match(key, /620 lx \(58 fc\)/);
+});
+
+test('a divider compares two pictures, by pointer, by finger and by keyboard', async () => {
+  await open(done());
+  const divider = page.getByLabel('Divider between Reference and Camera');
+  await divider.focus();
+  const at = () => divider.inputValue();
+  await divider.press('ArrowRight');
+  assert.equal(await at(), '51');
+  const box = await divider.boundingBox();
+  await page.mouse.click(box.x + box.width * 0.25, box.y + box.height / 2);
+  assert.ok(Number(await at()) < 35, await at());
+  // The edge of the clipped picture lies under the handle.
+  const clip = await page.locator('#reference').evaluate((node) => getComputedStyle(node).clipPath);
+  assert.match(clip, /inset/);
+  await page.getByRole('group', { name: 'On the left' }).getByRole('button', { name: 'Preview' }).click();
+  await page.getByLabel('Divider between Preview and Camera').waitFor();
+});
+
+test('a click remembers what the camera saw before it', async () => {
+  await open(done());
+  await page.locator('#camera img').evaluate((image) => image.decode());
+  await page.locator('.card[data-mood=split]').click();
+  await page.getByLabel('Divider between Before and Camera').waitFor();
+  assert.match(await page.locator('#before img').getAttribute('src'), /^data:image\/jpeg/);
+});
+
+test('words and tags narrow the wall of moods', async () => {
+  await open(quiet());
+  const shown = (wanted) => page.waitForFunction((names) =>
+    [...document.querySelectorAll('.card[data-mood]')].map((card) => card.dataset.mood).join() === names, wanted);
+  await page.getByLabel('Search moods').fill('night');
+  await shown('moonlight');
+  await page.getByLabel('Search moods').fill('no such light');
+  await page.getByText('No mood is like that.').waitFor();
+  await page.getByLabel('Search moods').fill('');
+  await page.getByRole('button', { name: 'warm', exact: true }).click();
+  await shown('golden-hour,candlelight');
+});
+
+test('a photograph of one\'s own is kept as a mood and lit like', async () => {
+  await open(quiet());
+  daemon.answer('POST /api/v1/moods', { name: 'anna' });
+  await page.locator('#own').setInputFiles({ name: 'anna_01.png', mimeType: 'image/png', buffer: png(200, 150, 90) });
+  const kept = await daemon.click((r) => r.path === '/api/v1/moods');
+  assert.match(kept.body, /name="title"\r\n\r\nanna 01/);
+  const lit = await daemon.click((r) => r.path === '/api/v1/design');
+  assert.equal(lit.body.mood, 'anna');
+});
+
+test('a file that is no picture is refused in the daemon\'s words', async () => {
+  await open(quiet());
+  daemon.refuse('POST /api/v1/moods', 422, { what: 'this is a HEIC picture', where: 'picture', remedy: 'save it as JPEG' });
+  await page.locator('#own').setInputFiles({ name: 'a.heic', mimeType: 'image/heic', buffer: Buffer.from('no picture') });
+  await page.getByRole('alert').waitFor();
+  assert.match(await text('#refusal'), /This is a HEIC picture\. Save it as JPEG\./);
+});
+
+test('a nudge is a quarter stop, and what it came to is told', async () => {
+  await open(done());
+  assert.equal(await text('[data-nudge=warmer] output'), '+½');
+  await page.getByRole('button', { name: 'Brighter, a quarter stop' }).click();
+  const sent = await daemon.click((r) => r.path === '/api/v1/nudge');
+  assert.equal(sent.body.brighter, 0.25);
+  await page.getByRole('button', { name: 'Harder, a quarter stop' }).click();
+  assert.equal((await daemon.click((r) => r.path === '/api/v1/nudge' && r.body.softer)).body.softer, -0.25);
+});
+
+test('a look is saved under a name, recalled, renamed and deleted', async () => {
+  await open(done());
+  await page.getByRole('button', { name: 'Save look' }).click();
+  await page.getByLabel('Name', { exact: true }).fill('Anna, noon');
+  await page.getByRole('button', { name: 'Save', exact: true }).click();
+  const kept = await daemon.click((r) => r.method === 'POST' && r.path === '/api/v1/looks');
+  assert.equal(kept.body.name, 'Anna, noon');
+  await page.getByRole('tab', { name: /Saved looks/ }).click();
+  await page.getByRole('button', { name: /^Anna, morning/ }).click();
+  await daemon.click((r) => r.path === '/api/v1/looks/2/apply');
+  await page.getByRole('button', { name: 'Rename Anna, morning' }).click();
+  await page.getByLabel('New name').fill('Anna');
+  await page.getByLabel('New name').press('Enter');
+  assert.equal((await daemon.click((r) => r.method === 'PUT' && r.path === '/api/v1/looks/2')).body.name, 'Anna');
+  await page.getByRole('button', { name: 'Delete Anna, morning' }).click();
+  await daemon.click((r) => r.method === 'DELETE' && r.path === '/api/v1/looks/2');
+});
+
+test('a meter reading is typed in as the meter shows it', async () => {
+  await open(done());
+  await page.getByRole('button', { name: 'Meter reading for key' }).click();
+  await page.getByLabel(/Meter at the face, towards key/).fill('f/5.6 1/50 ISO 100');
+  await page.keyboard.press('Enter');
+  const sent = await daemon.click((r) => r.path === '/api/v1/fixtures/key/measured');
+  assert.equal(sent.body.reading, 'f/5.6 1/50 ISO 100');
+});
+
+test('the technician sees how ports keep time and what is in every slot', async () => {
+  await open(done());
+  await page.getByRole('button', { name: 'Technician' }).click();
+  assert.match(await text('#ports'), /41 µs · 310 µs · 1\.2 ms/);
+  await page.locator('.slots li[data-slot="2"]', { hasText: '20' }).waitFor();
+  await page.locator('.slots li[data-slot="5"]').hover();
+  assert.match(await text('#monitor'), /Slot 5: fill, 80 of 255 \(31 %\)/);
+});
+
+test('an unknown lamp is learned slot by slot, and its slots fall when one looks away', async () => {
+  await open(done());
+  await page.getByRole('button', { name: 'Technician' }).click();
+  assert.equal(await page.getByLabel('First slot').inputValue(), '9');
+  await page.getByLabel('What you call it').fill('old panel');
+  await page.getByLabel('Slots to look at').fill('2');
+  await page.getByRole('button', { name: 'Begin' }).click();
+  await page.getByRole('button', { name: 'Raise slot 9' }).click();
+  const raised = await daemon.click((r) => r.method === 'PUT' && r.path === '/api/v1/kit/slots');
+  assert.deepEqual(raised.body, { universe: 1, slots: { 9: 255 } });
+  await page.getByLabel('What slot 9 does').selectOption('dimmer');
+  await page.getByLabel('What slot 10 does').selectOption('fine');
+  daemon.answer('POST /api/v1/kit', { profile: 'own/old-panel', profile_file: '/studios/fixtures/own/old-panel.yaml',
+    profile_yaml: 'profile: own/old-panel', studio_file: '/studios/portrait.yaml', studio_lines: '  old panel:', added: false });
+  await page.getByRole('button', { name: 'Show the profile' }).click();
+  const learnt = await daemon.click((r) => r.path === '/api/v1/kit');
+  assert.deepEqual(learnt.body.slots.map((slot) => slot.sees), ['dimmer', 'fine']);
+  await page.locator('.learnt pre').first().waitFor();
+  await page.getByRole('button', { name: 'Studio', exact: true }).click();
+  await daemon.click((r) => r.method === 'DELETE' && r.path === '/api/v1/kit/slots');
+});
+
+test('an output process that is gone is told in large words', async () => {
+  await open(handGone());
+  await page.locator('#hand-gone').waitFor({ state: 'visible' });
+  assert.match(await text('#bar'), /lights out of reach/);
 });
 
 test('a stand that must be moved is asked for, and its button says that it was', async () => {
   await open(done());
   assert.match(await text('#instructions'), /Move key to 47° camera left, 38° up, 1\.6 m\./);
-  await page.getByRole('button', { name: 'Done, it stands there' }).click();
+  await page.getByRole('button', { name: 'Done: key' }).click();
   await daemon.click((r) => r.path === '/api/v1/fixtures/key/placed');
   daemon.tell(quiet());
   await page.locator('#instructions').waitFor({ state: 'hidden' });
@@ -120,14 +254,14 @@ test('a lost connection is told and mends itself', async () => {
 test('the keyboard reaches every mood, fader and blackout, each with a name', async () => {
   await open(done());
   const nameless = await page.evaluate(() =>
-    [...document.querySelectorAll('button, input, [tabindex="0"]')]
+    [...document.querySelectorAll('button, input, select, [tabindex="0"]')]
       .filter((node) => node.checkVisibility())
       .filter((node) => !(node.innerText?.trim() || node.ariaLabel || node.labels?.length))
       .map((node) => node.outerHTML),
   );
   assert.deepEqual(nameless, []);
   const reached = new Set();
-  for (let step = 0; step < 40; step++) {
+  for (let step = 0; step < 70; step++) {
     await page.keyboard.press('Tab');
     reached.add(await page.evaluate(() => {
       const node = document.activeElement;
@@ -172,9 +306,11 @@ for (const [name, viewport] of [['a laptop', { width: 1280, height: 800 }], ['a 
   });
 
 test('the page speaks the photographer\'s language', async () => {
-  for (const state of [quiet(), working(), done(), failed(), dark()]) {
+  for (const state of [quiet(), working(), done(), failed(), dark(), handGone()]) {
     await open(state);
-    const words = await text('body');
+    const first = await text('body');
+    await page.getByRole('button', { name: 'Technician' }).click();
+    const words = first + (await text('body'));
     for (const word of [/\brig\b/i, /\btwin\b/i, /\bDOF\b/i, /\bexemplar\b/i, /\bgoal\b/i])
       assert.doesNotMatch(words, word);
     await page.close();

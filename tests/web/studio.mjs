@@ -68,22 +68,29 @@ export async function startStudio(bin, { stagehand = 'never' } = {}) {
   };
   const daemonPort = await freePort();
   const daemonUrl = `http://127.0.0.1:${daemonPort}`;
-  await start('chiaro-sim', [studio, '--port', cameraPort, '--rate', '5', '--daemon', daemonUrl,
-    '--stagehand', stagehand, '--stand-time', '0.1'].map(String), /./);
-  await start('chiaro-output', [studio, '--no-real-time'], /./);
-  const startDaemon = () => start('chiarod', [studio, '--port', String(daemonPort)], /panel: (\S+)/);
-  let daemon = await startDaemon();
+  const starters = {
+    simulator: () => start('chiaro-sim', [studio, '--port', cameraPort, '--rate', '5', '--daemon', daemonUrl,
+      '--stagehand', stagehand, '--stand-time', '0.1'].map(String), /./),
+    hand: () => start('chiaro-output', [studio, '--no-real-time'], /./),
+    daemon: () => start('chiarod', [studio, '--port', String(daemonPort)], /panel: (\S+)/),
+  };
+  const parts = {};
+  for (const name of ['simulator', 'hand', 'daemon']) parts[name] = await starters[name]();
   return {
-    url: daemon.match[1],
+    url: parts.daemon.match[1],
+    file: studio,
+    universe,
     state: async () => (await fetch(`${daemonUrl}/api/v1/state`)).json(),
-    async killDaemon() {
-      daemon.child.removeAllListeners('exit');
-      const gone = new Promise((done) => daemon.child.once('exit', done));
-      daemon.child.kill('SIGKILL');
+    /** `name`: simulator, hand or daemon; at once and without a goodbye. */
+    async kill(name) {
+      const { child } = parts[name];
+      child.removeAllListeners('exit');
+      const gone = new Promise((done) => child.once('exit', done));
+      child.kill('SIGKILL');
       await gone;
     },
-    async restartDaemon() {
-      daemon = await startDaemon();
+    async restart(name) {
+      parts[name] = await starters[name]();
     },
     output: () => programs.map((program) => program.output()).join('\n'),
     async stop() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Three small helpers in place of a framework: the page has one screen.
+// A few small helpers in place of a framework.
 
 type Child = Node | string | null | false;
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lights in the trade's words, each with a fader, and what a person has to move.
+// The lights in the trade's words, each with a fader, the masters, and what a person has to do.
 import type { Actions } from './actions';
 import { byId, el, keyed, setAttribute, setText, show } from './dom';
-import { sentence } from './notices';
+import { makeFader } from './fader';
+import { makeMeter } from './meter';
 import type { Fixture, Instruction, Scene } from './state';
+import { sentence } from './words';
 
 type Order = Instruction & { fixture: string };
 
@@ -15,8 +17,8 @@ function makeOrder(order: Order, actions: Actions) {
     words,
     el(
       'button.primary',
-      { type: 'button', onclick: () => actions.placed(order.fixture) },
-      'Done, it stands there',
+      { type: 'button', 'aria-label': `Done: ${order.fixture}`, onclick: () => actions.placed(order.fixture) },
+      'Done',
     ),
   );
   return { node, update: (next: Order) => setText(words, sentence(next.words)) };
@@ -26,8 +28,8 @@ export function makeInstructions(actions: Actions): (scene: Scene) => void {
   const list = el('ul.orders');
   const section = byId('instructions');
   section.append(
-    el('h2', { id: 'instructions-title' }, 'To move by hand'),
-    el('p.hint', {}, 'Levels follow as soon as a stand is where it should be.'),
+    el('h2', { id: 'instructions-title' }, 'To do by hand'),
+    el('p.hint', {}, 'Levels follow as soon as you say that it is done.'),
     list,
   );
   const update = keyed<Order, ReturnType<typeof makeOrder>>(
@@ -41,54 +43,27 @@ export function makeInstructions(actions: Actions): (scene: Scene) => void {
   };
 }
 
-/** A slider that a person may hold while news come in, and that tells at most ten times a second. */
-function makeFader(label: string, told: (level: number) => void) {
-  const slider = el('input.fader', {
-    type: 'range',
-    min: '0',
-    max: '100',
-    step: '1',
-    'aria-label': label,
-  }) as HTMLInputElement;
-  let timer = 0;
-  let until = 0;
-  slider.oninput = () => {
-    until = Date.now() + 1000;
-    timer ||= window.setTimeout(() => {
-      timer = 0;
-      told(Number(slider.value) / 100);
-    }, 100);
-  };
-  return {
-    node: slider,
-    update(level: number) {
-      if (Date.now() < until) return;
-      const value = String(Math.round(100 * level));
-      if (slider.value !== value) slider.value = value;
-    },
-  };
-}
-
 function makeLight(fixture: Fixture, actions: Actions) {
   const { name } = fixture;
   const role = el('span.role');
   const place = el('span.place');
   const level = el('span.level');
   const colour = el('span.colour');
+  const light = el('span.light');
   const fader = makeFader(`Level of ${name}`, (value) => actions.fader(name, value));
-  const release = el('button.quiet', { type: 'button', onclick: () => actions.release(name) }, 'Give back to the look');
+  const meter = makeMeter(name, actions);
+  const release = el('button.quiet', { type: 'button', onclick: () => actions.release(name) }, 'Give back');
+  setAttribute(release, 'aria-label', `Give ${name} back to the look`);
   let locked = false;
-  const lock = el('button.quiet', {
-    type: 'button',
-    onclick: () => actions.lock(name, !locked),
-  });
+  const lock = el('button.quiet', { type: 'button', onclick: () => actions.lock(name, !locked) });
   const node = el(
     'li',
     { 'data-fixture': name },
     el('div.who', {}, el('span.name', {}, name), role),
     el('div.where', {}, place, colour),
-    el('div.how', {}, level, fader.node),
-    el('div.hand', {}, release, lock),
+    el('div.how', {}, el('div.said', {}, level, light), fader.node),
+    el('div.hand', {}, release, meter.open, lock),
+    meter.form,
   );
   return {
     node,
@@ -97,9 +72,11 @@ function makeLight(fixture: Fixture, actions: Actions) {
       setText(place, next.words);
       setText(level, next.level);
       setText(colour, next.colour);
+      setText(light, next.light);
       fader.update(next.sent.intensity ?? 0);
       const byHand = next.by_hand.includes('intensity');
       setAttribute(fader.node, 'disabled', !next.controlled || byHand);
+      show(fader.node, !byHand);
       const held = Object.keys(next.manual).length > 0;
       show(release, held);
       setAttribute(node, 'data-held', held);
@@ -108,22 +85,45 @@ function makeLight(fixture: Fixture, actions: Actions) {
       setText(lock, locked ? 'Locked' : 'Lock');
       setAttribute(lock, 'aria-pressed', String(locked));
       setAttribute(lock, 'aria-label', `Lock ${name}: moods leave it alone`);
+      meter.update(next);
+    },
+  };
+}
+
+const masters = [
+  ['grand', 'All'],
+  ['key', 'Key'],
+  ['fill', 'Fill'],
+  ['back', 'Back'],
+  ['background', 'Background'],
+] as const;
+
+function makeMasters(actions: Actions) {
+  const faders = masters.map(([name, label]) => {
+    const fader = makeFader(`Master: ${label}`, (level) => actions.master(name, level));
+    const percent = el('span.level');
+    const node = el('div.master', {}, el('span', { 'aria-hidden': 'true' }, label), fader.node, percent);
+    return { name, fader, percent, node };
+  });
+  const node = el('div.masters', { role: 'group', 'aria-label': 'Masters' }, ...faders.map((f) => f.node));
+  return {
+    node,
+    update(levels: Record<string, number>) {
+      for (const { name, fader, percent } of faders) {
+        const level = levels[name] ?? 1;
+        fader.update(level);
+        setText(percent, `${Math.round(100 * level)} %`);
+      }
     },
   };
 }
 
 export function makeLights(actions: Actions): (scene: Scene) => void {
   const list = el('ul.list');
-  const master = makeFader('Master: all lights', (level) => actions.master(level));
-  const percent = el('span.level');
+  const group = makeMasters(actions);
   const section = byId('lights');
   section.append(
-    el(
-      'div.headline',
-      {},
-      el('h2', { id: 'lights-title' }, 'Lights'),
-      el('div.master', {}, el('span', {}, 'Master'), master.node, percent),
-    ),
+    el('div.headline', {}, el('h2', { id: 'lights-title' }, 'Lights'), group.node),
     list,
   );
   const update = keyed<Fixture, ReturnType<typeof makeLight>>(
@@ -134,9 +134,7 @@ export function makeLights(actions: Actions): (scene: Scene) => void {
   return ({ state }) => {
     show(section, (state?.fixtures.length ?? 0) > 0);
     update(state?.fixtures ?? []);
-    const level = state?.masters.grand ?? 1;
-    master.update(level);
-    setText(percent, `${Math.round(100 * level)} %`);
+    group.update(state?.masters ?? {});
   };
 }
 

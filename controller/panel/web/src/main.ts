@@ -1,23 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page: what the daemon tells goes into one scene, each part shows its share of it.
 import './style.css';
+import './technician.css';
 import type { Actions } from './actions';
 import { Refused, api, listen } from './api';
 import { makeBar } from './bar';
+import { makeLearn } from './learn';
+import { makeLibrary, takeDrops } from './library';
 import { makeInstructions, makeLights, makeProblems } from './lights';
-import { makeMoods } from './moods';
+import { makeStage } from './look';
 import { makeNotices } from './notices';
-import { exemplarOf } from './picture';
-import { makeStage } from './stage';
+import { snapshot, titleOf, uploadOf } from './picture';
 import type { Scene } from './state';
+import { makeMonitor, makePorts } from './technician';
 
-const scene: Scene = { state: null, moods: [], connected: false, lostSince: null, refusal: null };
+const scene: Scene = {
+  state: null, moods: [], looks: [], tab: 'studio', before: '', connected: false, lostSince: null, refusal: null,
+};
 let wantsToken = false;
 
 /** Does what was clicked; a refusal is shown until it is closed or the next click succeeds. */
-async function attempt(work: () => Promise<unknown>): Promise<void> {
+async function attempt<Value>(work: () => Promise<Value>): Promise<Value | null> {
+  let value: Value | null = null;
   try {
-    await work();
+    value = await work();
     scene.refusal = null;
   } catch (error) {
     if (!(error instanceof Refused)) throw error;
@@ -25,20 +31,53 @@ async function attempt(work: () => Promise<unknown>): Promise<void> {
     else scene.refusal = error.refusal;
   }
   render();
+  return value;
 }
+const loadMoods = () =>
+  attempt(async () => {
+    scene.moods = await api.moods();
+    wantsToken = false;
+  });
+const loadLooks = () => attempt(async () => (scene.looks = await api.looks()));
+/** Remembers what the camera sees now, then does what changes it. */
+const changing = (work: () => Promise<unknown>) => {
+  scene.before = snapshot(stage.camera);
+  return void attempt(work);
+};
+const andLooks = (work: () => Promise<unknown>) => void attempt(work).then(loadLooks);
 
 const actions: Actions = {
-  light: (mood) => void attempt(() => api.light(mood)),
+  light: (mood) => changing(() => api.light(mood)),
   lightLike: (file) =>
-    void attempt(async () => api.lightLike(await exemplarOf(file), file.name.replace(/\.\w+$/, ''))),
+    changing(async () => {
+      const name = await api.addMood(await uploadOf(file), titleOf(file));
+      void loadMoods();
+      await api.light(name);
+    }),
+  forget: (mood) => void attempt(() => api.removeMood(mood)).then(loadMoods),
   cancel: (job) => void attempt(() => api.cancel(job)),
+  workLight: () => void attempt(api.workLight),
+  nudge: (what, by) => void attempt(() => api.nudge(what, by)),
   undo: () => void attempt(api.undo),
+  save: (name) => andLooks(() => api.save(name)),
+  recall: (look) => changing(() => api.recall(look)),
+  rename: (look, name) => andLooks(() => api.rename(look, name)),
+  remove: (look) => andLooks(() => api.remove(look)),
   blackout: (on) => void attempt(() => api.blackout(on)),
+  motionStop: (on) => void attempt(() => api.motionStop(on)),
   placed: (fixture) => void attempt(() => api.placed(fixture)),
   fader: (fixture, intensity) => void attempt(() => api.fader(fixture, { intensity })),
   release: (fixture) => void attempt(() => api.fader(fixture, { release: true })),
   lock: (fixture, lock) => void attempt(() => api.fader(fixture, { lock })),
-  master: (level) => void attempt(() => api.master('grand', level)),
+  measured: (fixture, reading) => void attempt(() => api.measured(fixture, reading)),
+  master: (name, level) => void attempt(() => api.master(name, level)),
+  raise: (universe, levels) => void attempt(() => api.raise(universe, levels)),
+  learn: (lamp) => attempt(() => api.learn(lamp)),
+  reload: () => void attempt(api.reload).then(loadMoods),
+  show: (tab) => {
+    scene.tab = tab;
+    render();
+  },
   dismiss: () => {
     scene.refusal = null;
     render();
@@ -51,14 +90,19 @@ const actions: Actions = {
 };
 
 const notices = makeNotices(actions);
+const stage = makeStage(actions, render);
 const parts = [
   makeBar(actions),
-  makeMoods(actions),
-  makeStage(actions),
+  makeLibrary(actions, render),
+  stage.update,
   makeInstructions(actions),
   makeLights(actions),
   makeProblems(),
+  makePorts(actions),
+  makeMonitor(),
+  makeLearn(actions),
 ];
+takeDrops(actions);
 
 let asked = 0;
 /** Once for each screen refresh, however much news came. */
@@ -70,16 +114,14 @@ function render(): void {
   });
 }
 
-async function loadMoods(): Promise<void> {
-  await attempt(async () => {
-    scene.moods = await api.moods();
-    wantsToken = false;
-  });
-}
-
+let live = '';
 listen({
   state(state) {
     scene.state = state;
+    // The list of looks changes with the live one.
+    const now = `${state.look?.id} ${state.look?.kept} ${state.look?.name}`;
+    if (now !== live) void loadLooks();
+    live = now;
     render();
   },
   design(design) {

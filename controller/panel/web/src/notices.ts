@@ -4,6 +4,7 @@
 import type { Actions } from './actions';
 import { byId, el, setText, show } from './dom';
 import type { Scene } from './state';
+import { sentence } from './words';
 
 function makeSignIn(actions: Actions): HTMLElement {
   const field = el('input', {
@@ -30,6 +31,12 @@ function makeSignIn(actions: Actions): HTMLElement {
 export function makeNotices(actions: Actions): (scene: Scene, wantsToken: boolean) => void {
   const lost = el('p.notice.bad', { id: 'lost' });
   const dark = el('p.notice.dark', { id: 'dark' }, 'Blackout. All lights are dark until you release it.');
+  const away = el(
+    'p.notice.bad',
+    { id: 'hand-gone' },
+    'The output process does not answer: the lights keep what they were last sent, and nothing ' +
+      'here reaches them. Start chiaro-output with the same studio file.',
+  );
   const what = el('strong');
   const remedy = el('span');
   const refusal = el(
@@ -39,26 +46,21 @@ export function makeNotices(actions: Actions): (scene: Scene, wantsToken: boolea
     el('button.quiet', { type: 'button', onclick: () => actions.dismiss() }, 'Close'),
   );
   const signIn = makeSignIn(actions);
-  byId('notices').append(signIn, lost, dark, refusal);
+  byId('notices').append(signIn, lost, away, dark, refusal);
   return (scene, wantsToken) => {
     show(signIn, wantsToken);
-    show(lost, !scene.connected && scene.lostSince !== null && !wantsToken);
+    const cut = !scene.connected && scene.lostSince !== null && !wantsToken;
+    show(lost, cut);
     setText(
       lost,
       'Connection lost. The lights hold what they show; trying again by itself. ' +
         'If it stays so, see whether chiarod is running.',
     );
+    show(away, !cut && scene.connected && scene.state !== null && !scene.state.hand.connected);
     show(dark, scene.state?.blackout ?? false);
     show(refusal, scene.refusal !== null);
     if (!scene.refusal) return;
     setText(what, sentence(scene.refusal.what));
     setText(remedy, sentence(scene.refusal.remedy));
   };
-}
-
-/** "the port is in use" to "The port is in use." */
-export function sentence(words: string): string {
-  if (!words) return '';
-  const text = words.charAt(0).toUpperCase() + words.slice(1);
-  return /[.!?]$/.test(text) ? text : `${text}.`;
 }

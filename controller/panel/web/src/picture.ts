@@ -1,25 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-// A chosen file as the base64 that the daemon takes. Large photographs are made smaller first: the
-// light is the same, the upload a hundredth.
+// A chosen photograph as it is sent. Large ones are made smaller first: the light is the same, the
+// upload a hundredth. What the browser cannot read goes as it is, so that the daemon says why not.
 
 const most = 1600;
 
-export async function exemplarOf(file: File): Promise<string> {
+export async function uploadOf(file: File): Promise<Blob> {
   const bitmap = await createImageBitmap(file).catch(() => null);
-  if (!bitmap) return raw(file); // the daemon says what is wrong with it
+  if (!bitmap) return file;
   const scale = Math.min(1, most / Math.max(bitmap.width, bitmap.height));
   const canvas = document.createElement('canvas');
   canvas.width = Math.max(1, Math.round(bitmap.width * scale));
   canvas.height = Math.max(1, Math.round(bitmap.height * scale));
   canvas.getContext('2d')?.drawImage(bitmap, 0, 0, canvas.width, canvas.height);
-  return canvas.toDataURL('image/png');
+  const png = await new Promise<Blob | null>((made) => canvas.toBlob(made, 'image/png'));
+  return png ?? file;
 }
 
-function raw(file: File): Promise<string> {
-  return new Promise((resolve, reject) => {
-    const reader = new FileReader();
-    reader.onload = () => resolve(String(reader.result));
-    reader.onerror = () => reject(reader.error ?? new Error('the file cannot be read'));
-    reader.readAsDataURL(file);
-  });
+/** "IMG_2041.jpeg" to "IMG 2041". */
+export function titleOf(file: File): string {
+  return file.name.replace(/\.\w+$/, '').replace(/[_-]+/g, ' ').trim() || 'Own picture';
+}
+
+/** What an <img> shows now, as an address of its own; '' when it shows nothing. */
+export function snapshot(picture: HTMLImageElement): string {
+  if (!picture.naturalWidth) return '';
+  const canvas = document.createElement('canvas');
+  canvas.width = picture.naturalWidth;
+  canvas.height = picture.naturalHeight;
+  canvas.getContext('2d')?.drawImage(picture, 0, 0);
+  return canvas.toDataURL('image/jpeg', 0.92);
 }

@@ -22,6 +22,12 @@ export interface Fixture {
   words: string;
   level: string;
   colour: string;
+  /** This lamp alone, at the face: "640 lx (59 fc)". */
+  light: string;
+  lux: number;
+  output_cd: number;
+  measured: boolean;
+  patch: { universe: number; address: number; slots: number } | null;
   wanted: Values;
   placed: Values;
   sent: Values;
@@ -40,6 +46,13 @@ export interface Look {
   verdict_when_placed: string;
   remedy: string;
   ratio: string;
+  light: string;
+  nudges: Values;
+  /** What lamps alone cannot do of the last nudge. */
+  advice: string[];
+  can_nudge: boolean;
+  kept: boolean;
+  edition: number;
   fade: number;
   picture: string;
   placed_picture: string;
@@ -63,6 +76,8 @@ export interface Design {
 export interface Camera {
   name: string;
   health: 'good' | 'waiting' | 'lost' | 'none';
+  frames: number;
+  reconnects: number;
   picture: string;
   stream: string;
 }
@@ -70,14 +85,48 @@ export interface Output {
   universe: number;
   health: string;
   rate_hz: number;
+  frames: number;
   late: number;
+  missed: number;
+  failed: number;
+  jitter_us_p50: number;
+  jitter_us_p99: number;
+  jitter_us_p999: number;
+}
+/** What is in the slots of one universe, and whose they are. */
+export interface Slots {
+  universe: number;
+  slots: number[];
+  owners: { fixture: string; first: number; last: number }[];
+}
+/** A look that was found or saved. */
+export interface LookEntry {
+  id: number;
+  name: string;
+  mood: string;
+  verdict: string;
+  created: string;
+  live: boolean;
+  kept: boolean;
+  picture: string;
+}
+/** What came of learning a lamp. */
+export interface Learnt {
+  profile: string;
+  profile_file: string;
+  profile_yaml: string;
+  studio_file: string;
+  studio_lines: string;
+  added: boolean;
 }
 export interface State {
   version: number;
-  studio: { name: string; ready: boolean; stage: string };
+  studio: { name: string; file: string; ready: boolean; stage: string };
   hand: { connected: boolean; refused: boolean; real_time: boolean };
   caution: string;
   blackout: boolean;
+  /** What moves by motor. */
+  motion: { stopped: boolean; armed: boolean; axes_waiting: number };
   masters: Values;
   look: Look | null;
   design: Design | null;
@@ -93,6 +142,9 @@ export interface Mood {
   title: string;
   sentence: string;
   tags: string[];
+  words: string[];
+  /** How the sitter is turned, in words; '' = towards the camera. */
+  turn: string;
   attainable: boolean;
   own: boolean;
   picture: string;
@@ -102,6 +154,10 @@ export interface Mood {
 export interface Scene {
   state: State | null;
   moods: Mood[];
+  looks: LookEntry[];
+  tab: 'studio' | 'technician';
+  /** What the camera saw when the last mood was clicked. */
+  before: string;
   connected: boolean;
   /** When the connection was lost, else null. */
   lostSince: number | null;
