@@ -94,6 +94,7 @@ core::Result<std::unique_ptr<Socket>> connect(const HttpUrl& url, const Patience
 std::string words_of(const HttpRequest& request, const HttpUrl& url) {
   std::string text = request.method + " " + url.target + " HTTP/1.1\r\nHost: " + url.host + ":" +
                      std::to_string(url.port) + "\r\nConnection: close\r\n";
+  if (!request.token.empty()) text += "Authorization: Bearer " + request.token + "\r\n";
   if (!request.body.empty() || request.method != "GET")
     text += "Content-Type: " + request.type +
             "\r\nContent-Length: " + std::to_string(request.body.size()) + "\r\n";

@@ -23,6 +23,7 @@ core::Result<HttpUrl> parse_http_url(const std::string& url);
 struct HttpRequest {
   std::string method = "GET", url{};
   std::string body{}, type = "application/json";  ///< type: of the body, when there is one
+  std::string token{};  ///< sent as bearer token; "" = none. No line breaks in it
 };
 struct HttpReply {
   int status = 0;

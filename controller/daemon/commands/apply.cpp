@@ -24,7 +24,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Asked {
-  std::string look, fade = "3s", daemon = "http://127.0.0.1:8090", studio;
+  std::string look, fade = "3s", daemon = "http://127.0.0.1:8090", studio, token;
   bool dry_run = false;
 };
 
@@ -50,14 +50,15 @@ core::Result<std::string> text_of(const std::string& file) {
 }
 
 /// The daemon's answer as JSON; a problem when it is not there or refuses. `reached` tells which.
-core::Result<Json> ask(const std::string& daemon, const std::string& method,
-                       const std::string& path, const std::string& body, bool& reached) {
-  const auto reply =
-      drivers::http_request({method, daemon + "/api/v1" + path, body}, std::chrono::seconds(10));
+core::Result<Json> ask(const Asked& asked, const std::string& method, const std::string& path,
+                       const std::string& body, bool& reached) {
+  drivers::HttpRequest request{method, asked.daemon + "/api/v1" + path, body};
+  request.token = asked.token;
+  const auto reply = drivers::http_request(request, std::chrono::seconds(10));
   reached = static_cast<bool>(reply);
   if (!reply)
     return core::Problem{{},
-                         "the daemon at " + daemon + " does not answer",
+                         "the daemon at " + asked.daemon + " does not answer",
                          "start it with: chiarod STUDIO, or give its address with --daemon"};
   Json json = Json::parse(reply->body, nullptr, false);
   if (reply->status < 300 && json.is_object()) return json;
@@ -80,10 +81,10 @@ ports::Exit apply(const Asked& asked, double fade_s, ports::World& world, bool j
   if (!look.is_object())
     return refuse({{{asked.look, 1, 1}, "this is not a look", "give a look.json"}}, world, json);
   bool reached = false;
-  const auto saved = ask(asked.daemon, "POST", "/looks", Json({{"look", look}}).dump(), reached);
+  const auto saved = ask(asked, "POST", "/looks", Json({{"look", look}}).dump(), reached);
   if (!saved) return refuse_with(saved.problems(), reached, world, json);
   const std::int64_t id = saved->value("id", std::int64_t{0});
-  const auto applied = ask(asked.daemon, "POST", "/looks/" + std::to_string(id) + "/apply",
+  const auto applied = ask(asked, "POST", "/looks/" + std::to_string(id) + "/apply",
                            Json({{"fade_s", fade_s}}).dump(), reached);
   if (!applied) return refuse_with(applied.problems(), reached, world, json);
   if (json)
@@ -145,7 +146,7 @@ ports::Exit dry_run(const Asked& asked, ports::World& world, bool json) {
   std::string file = asked.studio;
   if (file.empty()) {
     bool reached = false;
-    const auto state = ask(asked.daemon, "GET", "/state", "", reached);
+    const auto state = ask(asked, "GET", "/state", "", reached);
     if (!state)
       return refuse_with({{{},
                            "without a daemon the studio is not known: " + state.problems()[0].what,
@@ -182,6 +183,11 @@ void declare_apply(CLI::App& app, ports::World& world, Verdict& verdict) {
       });
   verb->add_flag("--dry-run", asked->dry_run, "print the slots, send nothing");
   verb->add_option("--daemon", asked->daemon, "the daemon's address")->capture_default_str();
+  verb->add_option("--token", asked->token, "what chiarod was given as --token")
+      ->envname("CHIARO_TOKEN")
+      ->check([](const std::string& token) {
+        return token.find_first_of("\r\n") == std::string::npos ? "" : "a token is one line";
+      });
   verb->add_option("--studio", asked->studio, "for --dry-run: the studio file (else the daemon's)");
   verb->callback([asked, &world, &verdict] {
     verdict.exit = asked->dry_run ? dry_run(*asked, world, verdict.json)

@@ -39,10 +39,9 @@ TEST_F(CheckCommand, PrintsThePatchSheetOfTheShippedStudio) {
   ASSERT_EQ(run({"check", portrait()}), ports::Exit::done) << fake_.err.str();
   EXPECT_EQ(fake_.err.str(), "");
   const std::string sheet = fake_.out.str();
-  EXPECT_NE(
-      sheet.find("key      key         generic/tunable-panel 4ch-16bit  1.001-004  14000 cd, "
-                 "bare  stand, 45° camera left, 35° up, 1.80 m\n"),
-      std::string::npos)
+  EXPECT_NE(sheet.find("key      key         generic/tunable-panel 4ch-16bit  1.001-004  14000 cd, "
+                       "bare  stand, 45° camera left, 35° up, 1.80 m\n"),
+            std::string::npos)
       << sheet;
   EXPECT_NE(sheet.find("universe 1: sACN on lo at 40 Hz, priority 100\n"), std::string::npos);
 }
