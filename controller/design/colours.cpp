@@ -207,8 +207,7 @@ core::Picture the_rest(const Setting& setting, const studio::Rig& rig,
 
 /// How the picture changes with one value of one lamp, by central difference.
 core::Picture slope(const Setting& setting, const Mixer& mixer, std::size_t value) {
-  const bool bicolour =
-      setting.studio.fixtures[mixer.fixture].profile.emitter.has_white_mix();
+  const bool bicolour = setting.studio.fixtures[mixer.fixture].profile.emitter.has_white_mix();
   const double step = !bicolour ? 1e-3 : value == 0 ? kMiredStep : kTintStep;
   std::vector<double> values = mixer.values;
   values[value] = mixer.ranges[value].clamp(mixer.values[value] + step);

@@ -29,7 +29,8 @@ bool flashes(const std::string& words) {
 }
 bool is_open(const Capability& c) {
   if (c.open) return true;
-  if (c.closed || flashes(c.words)) return mentions(c.words, {"no strob", "strobe off", "no flash"});
+  if (c.closed || flashes(c.words))
+    return mentions(c.words, {"no strob", "strobe off", "no flash"});
   return mentions(c.words, {"open", "no function", "no effect", "full", "normal", "no strob",
                             "strobe off", "lamp on", "light on", "led on", "100%", "static"}) ||
          is_word(c.words, "on");
@@ -80,7 +81,8 @@ Meaning meaning_of_name(const std::string& name) {
   if (is({"white"}) || mentions(name, {"cool", "cold"}) || name == "w") return Meaning::white;
   if (is({"amber"})) return Meaning::amber;
   if (is({"lime"})) return Meaning::lime;
-  if (is({"dimmer", "dim", "intensity", "brightness", "master", "dimming"})) return Meaning::intensity;
+  if (is({"dimmer", "dim", "intensity", "brightness", "master", "dimming"}))
+    return Meaning::intensity;
   return Meaning::unknown;
 }
 
@@ -105,7 +107,8 @@ std::optional<core::Range> kelvins_in(const std::string& words) {
 std::vector<Segment> dimmer_law(const std::vector<Capability>& capabilities, double full) {
   const Capability* dimming = nullptr;
   for (const Capability& c : capabilities)
-    if (dims(c) && (dimming == nullptr || c.to - c.from > dimming->to - dimming->from)) dimming = &c;
+    if (dims(c) && (dimming == nullptr || c.to - c.from > dimming->to - dimming->from))
+      dimming = &c;
   if (dimming == nullptr || (dimming->from <= 0 && dimming->to >= full)) return {};
   std::vector<Segment> law;
   for (const Capability& c : capabilities) {
@@ -151,7 +154,8 @@ Shutter shutter_law(const std::vector<Capability>& capabilities, double full) {
 double idle(const std::vector<Capability>& capabilities, double full) {
   if (capabilities.empty()) return 0;
   const auto asks_nothing = [](const Capability& c) {
-    return c.open || mentions(c.words, {"no function", "no effect", "not used", "none", "manual", "normal",
+    return c.open ||
+           mentions(c.words, {"no function", "no effect", "not used", "none", "manual", "normal",
                               "open", "dmx", "disabled", "no macro", "no color", "white"}) ||
            is_word(c.words, "off") || is_word(c.words, "no");
   };

@@ -15,7 +15,7 @@ namespace chiaro::importers {
 /// One range of a channel as a library words it; raw values of the channel's own resolution.
 struct Capability {
   double from = 0, to = 255;
-  std::string words;  ///< lower case
+  std::string words;                  ///< lower case
   bool open = false, closed = false;  ///< where the library says so by more than words
 };
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <map>
 
 #include "controller/importers/gdtf_emitters.h"
@@ -23,21 +22,33 @@ struct Attribute {
   const char* name;
   Meaning meaning;
 };
-constexpr std::array kAttributes{
-    Attribute{"Dimmer", Meaning::intensity},       Attribute{"ColorAdd_R", Meaning::red},
-    Attribute{"ColorAdd_G", Meaning::green},       Attribute{"ColorAdd_B", Meaning::blue},
-    Attribute{"ColorAdd_W", Meaning::white},       Attribute{"ColorAdd_CW", Meaning::white},
-    Attribute{"ColorAdd_WW", Meaning::warm_white}, Attribute{"ColorAdd_RY", Meaning::amber},
-    Attribute{"ColorAdd_GY", Meaning::lime},       Attribute{"ColorAdd_C", Meaning::cyan},
-    Attribute{"ColorAdd_GC", Meaning::cyan},       Attribute{"ColorAdd_UV", Meaning::uv},
-    Attribute{"ColorRGB_Red", Meaning::red},       Attribute{"ColorRGB_Green", Meaning::green},
-    Attribute{"ColorRGB_Blue", Meaning::blue},     Attribute{"ColorSub_C", Meaning::cut_red},
-    Attribute{"ColorSub_M", Meaning::cut_green},   Attribute{"ColorSub_Y", Meaning::cut_blue},
-    Attribute{"CTC", Meaning::cct},                Attribute{"CTO", Meaning::cct},
-    Attribute{"CTB", Meaning::cct},                Attribute{"Tint", Meaning::tint},
-    Attribute{"Pan", Meaning::pan},                Attribute{"Tilt", Meaning::tilt},
-    Attribute{"Zoom", Meaning::zoom},              Attribute{"Shutter1", Meaning::shutter},
-    Attribute{"StrobeFrequency", Meaning::unknown}};
+constexpr std::array kAttributes{Attribute{"Dimmer", Meaning::intensity},
+                                 Attribute{"ColorAdd_R", Meaning::red},
+                                 Attribute{"ColorAdd_G", Meaning::green},
+                                 Attribute{"ColorAdd_B", Meaning::blue},
+                                 Attribute{"ColorAdd_W", Meaning::white},
+                                 Attribute{"ColorAdd_CW", Meaning::white},
+                                 Attribute{"ColorAdd_WW", Meaning::warm_white},
+                                 Attribute{"ColorAdd_RY", Meaning::amber},
+                                 Attribute{"ColorAdd_GY", Meaning::lime},
+                                 Attribute{"ColorAdd_C", Meaning::cyan},
+                                 Attribute{"ColorAdd_GC", Meaning::cyan},
+                                 Attribute{"ColorAdd_UV", Meaning::uv},
+                                 Attribute{"ColorRGB_Red", Meaning::red},
+                                 Attribute{"ColorRGB_Green", Meaning::green},
+                                 Attribute{"ColorRGB_Blue", Meaning::blue},
+                                 Attribute{"ColorSub_C", Meaning::cut_red},
+                                 Attribute{"ColorSub_M", Meaning::cut_green},
+                                 Attribute{"ColorSub_Y", Meaning::cut_blue},
+                                 Attribute{"CTC", Meaning::cct},
+                                 Attribute{"CTO", Meaning::cct},
+                                 Attribute{"CTB", Meaning::cct},
+                                 Attribute{"Tint", Meaning::tint},
+                                 Attribute{"Pan", Meaning::pan},
+                                 Attribute{"Tilt", Meaning::tilt},
+                                 Attribute{"Zoom", Meaning::zoom},
+                                 Attribute{"Shutter1", Meaning::shutter},
+                                 Attribute{"StrobeFrequency", Meaning::unknown}};
 
 /// Attributes are numbered where a lamp has several: Shutter2, ColorAdd_R.
 Meaning meaning_of(const std::string& attribute) {
@@ -55,8 +66,9 @@ struct Instance {
 };
 class Geometries {
  public:
-  explicit Geometries(pugi::xml_node root) : root_(root) {
-    for (const pugi::xml_node node : root.children()) roots_.emplace(node.attribute("Name").as_string(), node);
+  explicit Geometries(pugi::xml_node root) {
+    for (const pugi::xml_node node : root.children())
+      roots_.emplace(node.attribute("Name").as_string(), node);
   }
 
   /// Below the geometry of that name (a mode's), each geometry's name to its instances.
@@ -110,7 +122,6 @@ class Geometries {
     }
   }
 
-  pugi::xml_node root_;
   std::map<std::string, pugi::xml_node> roots_;
   mutable int visited_ = 0;  ///< a tree of references can be exponentially large
 };
@@ -142,13 +153,14 @@ std::vector<Function> functions_of(pugi::xml_node channel, int bytes) {
                    [](const Function& a, const Function& b) { return a.from < b.from; });
   const std::uint32_t full = (1u << (8u * static_cast<unsigned>(bytes))) - 1;
   for (std::size_t i = 0; i < all.size(); ++i)
-    all[i].to = i + 1 < all.size() ? std::max(all[i].from, all[i + 1].from - (all[i + 1].from > 0))
-                                   : full;
+    all[i].to =
+        i + 1 < all.size() ? std::max(all[i].from, all[i + 1].from - (all[i + 1].from > 0)) : full;
   return all;
 }
 
 double inside(Meaning meaning, double physical) {
-  const bool angle = meaning == Meaning::pan || meaning == Meaning::tilt || meaning == Meaning::zoom;
+  const bool angle =
+      meaning == Meaning::pan || meaning == Meaning::tilt || meaning == Meaning::zoom;
   return angle ? core::radians(physical) : physical;
 }
 
@@ -182,8 +194,8 @@ void add_segments(const std::vector<Function>& functions, Meaning meaning, doubl
       const bool falls = f.physical_to < f.physical_from;
       s.physical_from = falls ? 1 : 0;
       s.physical_to = falls ? 0 : 1;
-      const bool cut =
-          meaning == Meaning::cut_red || meaning == Meaning::cut_green || meaning == Meaning::cut_blue;
+      const bool cut = meaning == Meaning::cut_red || meaning == Meaning::cut_green ||
+                       meaning == Meaning::cut_blue;
       if (cut) std::swap(s.physical_from, s.physical_to);
     }
     channel.segments.push_back(s);
@@ -206,8 +218,8 @@ void add_shutter(const std::vector<Function>& functions, double full, LibraryCha
     std::uint32_t from = f.from;
     for (const pugi::xml_node set : f.node.children("ChannelSet")) {
       const std::string name = lower(set.attribute("Name").as_string());
-      const auto at = gdtf_value(set.attribute("DMXFrom").as_string(),
-                                 static_cast<int>(channel.slots.size()));
+      const auto at =
+          gdtf_value(set.attribute("DMXFrom").as_string(), static_cast<int>(channel.slots.size()));
       if (at) from = *at;
       if (name.find("open") != std::string::npos && !channel.lit) channel.lit = from / full;
       if (name.find("clos") != std::string::npos && !channel.closed) channel.closed = from / full;
@@ -269,8 +281,8 @@ class ModeReader {
     const auto& instances = found != instances_.end() ? found->second : kOnce;
     for (const Instance& instance : instances) {
       // "Overwrite": the reference's own break; only the first patch address is ours to give.
-      const auto start = words == "Overwrite" ? instance.first_slot.begin()
-                                              : instance.first_slot.find(dmx_break);
+      const auto start =
+          words == "Overwrite" ? instance.first_slot.begin() : instance.first_slot.find(dmx_break);
       const int first = start != instance.first_slot.end() ? start->second : 1;
       LibraryChannel channel = read_channel(node, geometry, static_cast<int>(offsets.size()));
       channel.slots.clear();
@@ -298,9 +310,9 @@ class ModeReader {
       }
     channel.name = functions.empty() ? geometry : functions.front().attribute;
     if (!functions.empty())
-      channel.held =
-          gdtf_value(functions.front().node.attribute("Default").as_string("0/1"), bytes).value_or(0) /
-          full;
+      channel.held = gdtf_value(functions.front().node.attribute("Default").as_string("0/1"), bytes)
+                         .value_or(0) /
+                     full;
     if (channel.meaning == Meaning::shutter)
       add_shutter(functions, full, channel);
     else if (channel.meaning != Meaning::unknown)
@@ -330,8 +342,8 @@ void read_beams(const std::vector<pugi::xml_node>& beams, LibraryFixture& fixtur
   fixture.beam = core::Range{core::radians(beam), core::radians(beam)};
   fixture.field = core::radians(std::max(beam, field));
   fixture.cct = cct;
-  fixture.widest = std::max(fixture.widest,
-                            2 * number_in(first.attribute("BeamRadius"), 0.001, 5, 0.05) + 0.1);
+  fixture.widest =
+      std::max(fixture.widest, 2 * number_in(first.attribute("BeamRadius"), 0.001, 5, 0.05) + 0.1);
   const auto is_default = [&](const char* name, double value) {
     return number_in(first.attribute(name), -1e9, 1e9, value) == value;
   };
@@ -342,7 +354,8 @@ void read_beams(const std::vector<pugi::xml_node>& beams, LibraryFixture& fixtur
 
 }  // namespace
 
-core::Result<LibraryFixture> read_gdtf_description(const std::string& xml, const std::string& file) {
+core::Result<LibraryFixture> read_gdtf_description(const std::string& xml,
+                                                   const std::string& file) {
   pugi::xml_document document;
   if (const auto read = read_xml(xml, file, document); !read) return read.problems();
   const pugi::xml_node type = document.child("GDTF").child("FixtureType");

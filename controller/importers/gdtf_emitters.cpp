@@ -73,10 +73,10 @@ std::vector<studio::Primary> GdtfEmitters::primaries(bool& shares_known) const {
   std::vector<studio::Primary> all;
   shares_known = !names_.empty();
   for (const auto& [meaning, name] : names_) {
-    const pugi::xml_node node = collection_.find_child_by_attribute("Emitter", "Name", name.c_str());
+    const pugi::xml_node node =
+        collection_.find_child_by_attribute("Emitter", "Name", name.c_str());
     const auto colour = node ? colour_of(node) : std::nullopt;
-    const double candela =
-        number_in(at_full(node).attribute("LuminousIntensity"), 1e-6, 1e9, 0);
+    const double candela = number_in(at_full(node).attribute("LuminousIntensity"), 1e-6, 1e9, 0);
     shares_known = shares_known && candela > 0 && colour.has_value();
     if (colour) all.push_back({*dof_of(meaning), *colour, candela > 0 ? candela : 1});
   }

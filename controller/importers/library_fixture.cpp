@@ -87,12 +87,11 @@ bool is_drive(Dof dof) { return dof >= Dof::red && dof <= Dof::cyan; }
 /// What the whole lamp has, over all its modes.
 struct Abilities {
   core::Range zoom{0, 0}, pan{0, 0}, tilt{0, 0};
-  bool dimmed_colours = false;
 };
 
-double count(const LibraryMode& mode, Meaning meaning) {
-  return static_cast<double>(std::count_if(mode.channels.begin(), mode.channels.end(),
-                                           [&](const auto& c) { return c.meaning == meaning; }));
+bool has_any(const LibraryMode& mode, Meaning meaning) {
+  return std::any_of(mode.channels.begin(), mode.channels.end(),
+                     [&](const LibraryChannel& c) { return c.meaning == meaning; });
 }
 
 /// One mode on its way: which channels take part, and as what.
@@ -278,9 +277,8 @@ std::vector<studio::Primary> primaries(const LibraryFixture& fixture, studio::Pr
     if (!is_drive(dof.dof) || !any_mode_has(profile.modes, dof.dof)) continue;
     const Usual& led = *usual(dof.dof);
     studio::Primary primary{dof.dof, led.colour, led.weight};
-    const auto known =
-        std::find_if(fixture.primaries.begin(), fixture.primaries.end(),
-                     [&](const studio::Primary& p) { return p.dof == dof.dof; });
+    const auto known = std::find_if(fixture.primaries.begin(), fixture.primaries.end(),
+                                    [&](const studio::Primary& p) { return p.dof == dof.dof; });
     if (known != fixture.primaries.end()) {
       primary.chromaticity = known->chromaticity;
       if (fixture.shares_known) primary.share = known->share;
@@ -324,9 +322,7 @@ void hold_what_the_emitter_lacks(studio::Profile& profile) {
                         (dof == Dof::crossfade && kind != Emitter::Kind::blend) ||
                         (is_drive(dof) && profile.emitter.primaries.size() < 2);
       if (!lost) continue;
-      const double at = dof == Dof::cct  ? 5600
-                        : is_drive(dof) || dof == Dof::crossfade ? 1
-                                                                 : 0;
+      const double at = dof == Dof::cct ? 5600 : is_drive(dof) || dof == Dof::crossfade ? 1 : 0;
       channel.constant = studio::fraction_of(channel.segments, at);
       channel.dof.reset();
       channel.rest.reset();
@@ -379,7 +375,7 @@ Abilities abilities_of(const LibraryFixture& fixture, studio::Profile& profile) 
   Abilities can;
   const auto has = [&](Meaning meaning) {
     return std::any_of(fixture.modes.begin(), fixture.modes.end(),
-                       [&](const LibraryMode& mode) { return count(mode, meaning) > 0; });
+                       [&](const LibraryMode& mode) { return has_any(mode, meaning); });
   };
   const auto turn = [&](Meaning meaning, double known, double usual_turn, const char* word) {
     if (!has(meaning)) return core::Range{0, 0};
@@ -444,7 +440,8 @@ core::Result<Imported> profile_of(const LibraryFixture& fixture, const std::stri
       continue;
     }
     profile.modes.push_back(maker.made());
-    profile.modes.back().name = mode_name(mode.name, {profile.modes.begin(), profile.modes.end() - 1});
+    profile.modes.back().name =
+        mode_name(mode.name, {profile.modes.begin(), profile.modes.end() - 1});
   }
   if (profile.modes.empty())
     return refused(file, "no channel of this " +

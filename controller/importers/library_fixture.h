@@ -25,15 +25,15 @@ enum class Meaning {
   warm_white,
   amber,
   lime,
-  cyan,         ///< an emitter
-  uv,           ///< held dark, unless it is the only light
-  cut_red,      ///< a cyan filter: more of it takes red away
-  cut_green,    ///< magenta
-  cut_blue,     ///< yellow
-  cct,          ///< segments in kelvin
-  tint,         ///< segments in Duv/1000
-  crossfade,    ///< from a white mix to a colour mix
-  pan,          ///< segments in radians where the library knows them
+  cyan,       ///< an emitter
+  uv,         ///< held dark, unless it is the only light
+  cut_red,    ///< a cyan filter: more of it takes red away
+  cut_green,  ///< magenta
+  cut_blue,   ///< yellow
+  cct,        ///< segments in kelvin
+  tint,       ///< segments in Duv/1000
+  crossfade,  ///< from a white mix to a colour mix
+  pan,        ///< segments in radians where the library knows them
   tilt,
   zoom,
   shutter,  ///< held at open
@@ -62,11 +62,11 @@ struct LibraryFixture {
   std::string kind;  ///< "Moving Head", "Smoke", …, as the library says
   std::vector<LibraryMode> modes;
   std::optional<double> candela, lumens, watts, cct;
-  std::optional<core::Range> beam;  ///< radians, full; a zoom's ends
-  std::optional<double> field;      ///< radians, full
-  double pan_turn = 0, tilt_turn = 0;  ///< radians from end to end; 0 = not known
-  double widest = 0;                   ///< metres; 0 = not known
-  std::optional<studio::Optic> optic;  ///< where the library knows the shape
+  std::optional<core::Range> beam;         ///< radians, full; a zoom's ends
+  std::optional<double> field;             ///< radians, full
+  double pan_turn = 0, tilt_turn = 0;      ///< radians from end to end; 0 = not known
+  double widest = 0;                       ///< metres; 0 = not known
+  std::optional<studio::Optic> optic;      ///< where the library knows the shape
   std::vector<studio::Primary> primaries;  ///< where the library knows their colours
   bool shares_known = false;               ///< of `primaries`
   std::vector<std::string> assumed;        ///< the file has a number, but it is a format's default

@@ -59,8 +59,8 @@ class Reader {
                               : parent;
       if (kind == "Fixture")
         fixture(child, here);
-      else if (kind == "SceneObject" || kind == "Truss" || kind == "Support" || kind == "VideoScreen" ||
-               kind == "Projector")
+      else if (kind == "SceneObject" || kind == "Truss" || kind == "Support" ||
+               kind == "VideoScreen" || kind == "Projector")
         ++others_[kind];
       if (kind == "Layer" || kind == "ChildList" || kind == "GroupObject" || kind == "Fixture" ||
           kind == "SceneObject" || kind == "Truss" || kind == "Support" || kind == "Layers")
@@ -70,10 +70,10 @@ class Reader {
 
   void list_others() {
     for (const auto& [kind, count] : others_)
-      show_.left_out.push_back(fmt::format("{} of kind {}: describe what matters as background in "
-                                           "the studio file",
-                                           count == 1 ? "an object" : std::to_string(count) + " objects",
-                                           kind));
+      show_.left_out.push_back(
+          fmt::format("{} of kind {}: describe what matters as background in "
+                      "the studio file",
+                      count == 1 ? "an object" : std::to_string(count) + " objects", kind));
   }
 
  private:
@@ -98,8 +98,8 @@ class Reader {
       show_.left_out.push_back(fmt::format("fixture '{}': it has no address", name));
       return;
     }
-    ShowLamp lamp{names_.fresh(name), profile->name, found->name, profile->pan.width() > 0,
-                  address->first, address->second, 0.001 * at.origin, {}};
+    ShowLamp lamp{names_.fresh(name), profile->name,   found->name,       profile->pan.width() > 0,
+                  address->first,     address->second, 0.001 * at.origin, {}};
     const core::Vec3 beam = -1 * at.w;
     if (core::length(beam) > 1e-9) lamp.direction = core::unit(beam);
     show_.lamps.push_back(std::move(lamp));
@@ -154,8 +154,8 @@ class Reader {
 std::string uuid_of(const std::string& words) {
   const std::uint64_t a = core::Fingerprint().add(words).value();
   const std::uint64_t b = core::Fingerprint().add("again " + words).value();
-  return fmt::format("{:08X}-{:04X}-8{:03X}-A{:03X}-{:012X}", a >> 32u, a >> 16u & 0xffffu, a & 0xfffu,
-                     b >> 48u & 0xfffu, b & 0xffffffffffffu);
+  return fmt::format("{:08X}-{:04X}-8{:03X}-A{:03X}-{:012X}", a >> 32u, a >> 16u & 0xffffu,
+                     a & 0xfffu, b >> 48u & 0xfffu, b & 0xffffffffffffu);
 }
 
 std::optional<std::pair<core::Vec3, core::Vec3>> pose_of(const studio::Fixture& fixture,
@@ -240,8 +240,9 @@ core::Result<std::string> mvr_of(const studio::Studio& studio, const core::AimFr
     add("FixtureID", std::to_string(++number));
     add("UnitNumber", std::to_string(number));
   }
-  left_out.emplace_back("the GDTF files of the lamps: the program that opens the scene has them, or "
-                        "asks for them by maker and model");
+  left_out.emplace_back(
+      "the GDTF files of the lamps: the program that opens the scene has them, or "
+      "asks for them by maker and model");
   std::ostringstream xml;
   document.save(xml, " ");
   return zip_of({{"GeneralSceneDescription.xml", xml.str()}});

@@ -56,7 +56,8 @@ std::vector<std::string> pixels_of(const Json& matrix) {
   if (names.empty() && count.is_array() && count.size() == 3) {
     double all = 1;
     for (const Json& n : count) all *= n.is_number() ? n.get<double>() : 0;
-    for (int i = 1; all <= 1024 && i <= static_cast<int>(all); ++i) names.push_back(std::to_string(i));
+    for (int i = 1; all <= 1024 && i <= static_cast<int>(all); ++i)
+      names.push_back(std::to_string(i));
   }
   return names;
 }
@@ -64,7 +65,8 @@ std::vector<std::string> pixels_of(const Json& matrix) {
 class Reader {
  public:
   explicit Reader(const Json& root) : root_(root), pixels_(pixels_of(child(root, "matrix"))) {
-    for (const auto& [key, channel] : child(root, "availableChannels").items()) define(key, channel, "");
+    for (const auto& [key, channel] : child(root, "availableChannels").items())
+      define(key, channel, "");
     const Json& groups = child(child(root, "matrix"), "pixelGroups");
     std::vector<std::string> cells = pixels_;
     if (groups.is_object())
@@ -102,9 +104,9 @@ class Reader {
     int byte = 0;
     for (const Json& alias : child(channel, "fineChannelAliases"))
       if (alias.is_string() && ++byte <= 3)
-        fine_.emplace(pixel.empty() ? alias.get<std::string>()
-                                    : replaced(alias.get<std::string>(), pixel),
-                      std::pair(key, byte));
+        fine_.emplace(
+            pixel.empty() ? alias.get<std::string>() : replaced(alias.get<std::string>(), pixel),
+            std::pair(key, byte));
     // A switching channel is what it stands for at the start.
     for (const auto& [alias, target] : starting_switches(channel).items())
       if (target.is_string()) switched_.emplace(alias, target.get<std::string>());
@@ -195,7 +197,8 @@ void read_physical(const Json& physical, LibraryFixture& fixture) {
   if (lens.is_array() && lens.size() == 2 && lens[0].is_number() && lens[1].is_number() &&
       !fixture.beam) {
     const double a = lens[0].get<double>(), b = lens[1].get<double>();
-    if (a >= 0.5 && b >= a && b <= 179) fixture.beam = core::Range{core::radians(a), core::radians(b)};
+    if (a >= 0.5 && b >= a && b <= 179)
+      fixture.beam = core::Range{core::radians(a), core::radians(b)};
   }
   const Json& size = child(physical, "dimensions");
   if (size.is_array() && !size.empty() && size[0].is_number())

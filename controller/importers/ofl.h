@@ -9,8 +9,8 @@
 
 namespace chiaro::importers {
 
-/// `maker`: the library keeps it in the folder's name, not in the file; used where the file does not
-/// say. `file` stands in the places of problems.
+/// `maker`: the library keeps it in the folder's name, not in the file; used where the file does
+/// not say. `file` stands in the places of problems.
 core::Result<LibraryFixture> read_ofl(const std::string& text, const std::string& maker,
                                       const std::string& file);
 

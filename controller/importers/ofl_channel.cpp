@@ -26,13 +26,18 @@ struct Colour {
   const char* name;
   Meaning meaning;
 };
-constexpr std::array kColours{
-    Colour{"Red", Meaning::red},          Colour{"Green", Meaning::green},
-    Colour{"Blue", Meaning::blue},        Colour{"White", Meaning::white},
-    Colour{"Cold White", Meaning::white}, Colour{"Warm White", Meaning::warm_white},
-    Colour{"Amber", Meaning::amber},      Colour{"Lime", Meaning::lime},
-    Colour{"UV", Meaning::uv},            Colour{"Cyan", Meaning::cut_red},
-    Colour{"Magenta", Meaning::cut_green}, Colour{"Yellow", Meaning::cut_blue}};
+constexpr std::array kColours{Colour{"Red", Meaning::red},
+                              Colour{"Green", Meaning::green},
+                              Colour{"Blue", Meaning::blue},
+                              Colour{"White", Meaning::white},
+                              Colour{"Cold White", Meaning::white},
+                              Colour{"Warm White", Meaning::warm_white},
+                              Colour{"Amber", Meaning::amber},
+                              Colour{"Lime", Meaning::lime},
+                              Colour{"UV", Meaning::uv},
+                              Colour{"Cyan", Meaning::cut_red},
+                              Colour{"Magenta", Meaning::cut_green},
+                              Colour{"Yellow", Meaning::cut_blue}};
 
 Meaning meaning_of(const Json& capability) {
   const std::string type = text_in(capability, "type");
@@ -53,8 +58,8 @@ std::optional<double> with_unit(const std::string& words, std::string_view unit)
   if (words.size() <= unit.size() ||
       words.compare(words.size() - unit.size(), unit.size(), unit) != 0)
     return std::nullopt;
-  const double value =
-      number_in(std::string_view(words).substr(0, words.size() - unit.size()), -1e6, 1e6, std::nan(""));
+  const double value = number_in(std::string_view(words).substr(0, words.size() - unit.size()),
+                                 -1e6, 1e6, std::nan(""));
   return std::isnan(value) ? std::nullopt : std::optional(value);
 }
 
@@ -75,8 +80,8 @@ std::pair<std::string, std::string> ends(const Json& capability, const std::stri
 
 /// Physical values at both ends; nothing where the library gives words ("narrow", "warm").
 std::optional<std::pair<double, double>> physical(const Json& capability, Meaning meaning) {
-  const auto both = [&](const std::string& entity, std::string_view unit, double scale)
-      -> std::optional<std::pair<double, double>> {
+  const auto both = [&](const std::string& entity, std::string_view unit,
+                        double scale) -> std::optional<std::pair<double, double>> {
     const auto [from, to] = ends(capability, entity);
     const auto a = with_unit(from, unit), b = with_unit(to, unit);
     if (!a || !b) return std::nullopt;
@@ -152,8 +157,7 @@ void centre(std::vector<Segment>& segments) {
 void add_law(const std::vector<Piece>& pieces, LibraryChannel& channel) {
   for (const Piece& piece : pieces) channel.segments.push_back(segment_of(piece, channel.meaning));
   const auto continuous = [](const Segment& s) { return s.law == Segment::Law::continuous; };
-  const auto first =
-      std::find_if(channel.segments.begin(), channel.segments.end(), continuous);
+  const auto first = std::find_if(channel.segments.begin(), channel.segments.end(), continuous);
   if (first == channel.segments.end()) {
     channel.segments.clear();
     return;

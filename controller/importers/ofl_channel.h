@@ -10,8 +10,8 @@
 
 namespace chiaro::importers {
 
-/// `slots`: where the mode has its bytes. `finest`: how many bytes the library knows; its raw values
-/// count in those unless `dmxValueResolution` says otherwise.
+/// `slots`: where the mode has its bytes. `finest`: how many bytes the library knows; its raw
+/// values count in those unless `dmxValueResolution` says otherwise.
 LibraryChannel ofl_channel(const std::string& name, const nlohmann::json& channel,
                            std::vector<int> slots, int finest);
 

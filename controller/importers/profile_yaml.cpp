@@ -50,8 +50,8 @@ std::string raw(double fraction, int bytes) {
 }
 
 std::string range(const Channel& channel, const Segment& s) {
-  std::string words =
-      fmt::format("{{dmx: [{}, {}], ", raw(s.dmx_from, channel.bytes), raw(s.dmx_to, channel.bytes));
+  std::string words = fmt::format("{{dmx: [{}, {}], ", raw(s.dmx_from, channel.bytes),
+                                  raw(s.dmx_to, channel.bytes));
   if (s.law == Segment::Law::no_effect) return words + "no_effect: yes}";
   if (s.law == Segment::Law::neutral)
     return words + "neutral: " + physical(channel, s.physical_from) + "}";
@@ -65,7 +65,8 @@ bool follows(const studio::Profile& profile, const Channel& channel) {
   if (!own || channel.segments.size() != 1) return false;
   const Segment& s = channel.segments.front();
   return s.law == Segment::Law::continuous && s.dmx_from == 0 && s.dmx_to == 1 &&
-         std::abs(s.physical_from - own->least) < 1e-9 && std::abs(s.physical_to - own->most) < 1e-9;
+         std::abs(s.physical_from - own->least) < 1e-9 &&
+         std::abs(s.physical_to - own->most) < 1e-9;
 }
 
 std::string verb(const Channel& channel) {
@@ -94,8 +95,8 @@ std::string place(const Channel& channel, int next) {
 }
 
 std::string line(const studio::Profile& profile, const Channel& channel, int next) {
-  std::string words = "    - {" + verb(channel) + ", name: " + quoted(channel.name) +
-                      place(channel, next);
+  std::string words =
+      "    - {" + verb(channel) + ", name: " + quoted(channel.name) + place(channel, next);
   if (channel.rest && channel.dof) words += ", rest: " + raw(*channel.rest, channel.bytes);
   const bool needs_ranges =
       (channel.dof && !follows(profile, channel)) || channel.use == ChannelUse::pwm;
@@ -133,8 +134,8 @@ std::string primaries(const studio::Emitter& emitter) {
 }
 
 std::string white_mix(const studio::Emitter& emitter) {
-  std::string words =
-      fmt::format("cct: [{} K, {} K]", exact(emitter.cct_range.least), exact(emitter.cct_range.most));
+  std::string words = fmt::format("cct: [{} K, {} K]", exact(emitter.cct_range.least),
+                                  exact(emitter.cct_range.most));
   if (emitter.tint_range.width() > 0)
     words += fmt::format(", tint: [{}, {}]", exact(emitter.tint_range.least),
                          exact(emitter.tint_range.most));

@@ -140,8 +140,9 @@ void add_law(const std::vector<Capability>& capabilities, LibraryChannel& channe
     }
     case Meaning::unknown: {
       channel.held = idle(capabilities, kFull);
-      if (!mentions(lower(channel.name), {"lamp", "laser", "led", "colo", "light", "shutter", "dimmer",
-                                          "pod", "lens", "rgb", "white", "cluster", "head", "gobo"}))
+      if (!mentions(lower(channel.name),
+                    {"lamp", "laser", "led", "colo", "light", "shutter", "dimmer", "pod", "lens",
+                     "rgb", "white", "cluster", "head", "gobo"}))
         break;
       const Shutter law = shutter_law(capabilities, kFull);
       channel.closed = law.closed;
@@ -167,8 +168,7 @@ Definition definition_of(pugi::xml_node node) {
     for (const Preset& each : kPresets)
       if (preset == each.name) out.channel.meaning = each.meaning;
     out.channel.backwards = preset == "BeamZoomBigSmall";
-    if (out.channel.meaning == Meaning::white &&
-        meaning_of_name(name) == Meaning::warm_white)
+    if (out.channel.meaning == Meaning::white && meaning_of_name(name) == Meaning::warm_white)
       out.channel.meaning = Meaning::warm_white;
   } else {
     const pugi::xml_node group = node.child("Group");
@@ -185,12 +185,14 @@ Definition definition_of(pugi::xml_node node) {
 /// "Pan fine" without its last word and its numbers' spaces: for finding the coarse one.
 std::string stem(const std::string& name) {
   std::string words = lower(name);
-  for (const char* each : {"fine", "16bit", "16 bit", "16-bit", "lsb", "low", "coarse", "msb", "high"})
+  for (const char* each :
+       {"fine", "16bit", "16 bit", "16-bit", "lsb", "low", "coarse", "msb", "high"})
     for (std::size_t at; (at = words.find(each)) != std::string::npos;)
       words.erase(at, std::string_view(each).size());
-  words.erase(std::remove_if(words.begin(), words.end(),
-                             [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }),
-              words.end());
+  words.erase(
+      std::remove_if(words.begin(), words.end(),
+                     [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }),
+      words.end());
   return words;
 }
 
@@ -256,7 +258,8 @@ void read_physical(pugi::xml_node physical, LibraryFixture& fixture) {
   const double most = number_in(lens.attribute("DegreesMax"), 0.5, 179, 0);
   const auto focus = physical.child("Focus");
   const auto size = physical.child("Dimensions");
-  const double watts = number_in(physical.child("Technical").attribute("PowerConsumption"), 1, 1e5, 0);
+  const double watts =
+      number_in(physical.child("Technical").attribute("PowerConsumption"), 1, 1e5, 0);
   if (lumens > 0 && !fixture.lumens) fixture.lumens = lumens;
   if (cct > 0 && !fixture.cct) fixture.cct = cct;
   if (watts > 0 && !fixture.watts) fixture.watts = watts;

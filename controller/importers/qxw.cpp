@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
-#include <set>
 
 #include "controller/importers/import_fixture.h"
 #include "controller/importers/qxf.h"
@@ -37,8 +36,8 @@ class Reader {
     if (maker == "Generic" && model == "Generic") return dimmers(name, at);
     const Imported* known = definition(maker, model);
     if (known == nullptr) {
-      show_.left_out.push_back(fmt::format(
-          "fixture '{}': there is no usable definition of {} {}", name, maker, model));
+      show_.left_out.push_back(
+          fmt::format("fixture '{}': there is no usable definition of {} {}", name, maker, model));
       return;
     }
     lamp(name, known->profile, node.child_value("Mode"), at);
@@ -50,7 +49,8 @@ class Reader {
       const auto at = patched_.find(whole_in(values.attribute("ID").as_string(), 0, 1'000'000, -2));
       if (at != patched_.end()) levels(values.child_value(), at->second, scene);
     }
-    if (!scene.levels.empty() && show_.scenes.size() < 1000) show_.scenes.push_back(std::move(scene));
+    if (!scene.levels.empty() && show_.scenes.size() < 1000)
+      show_.scenes.push_back(std::move(scene));
   }
 
  private:
@@ -66,8 +66,15 @@ class Reader {
   /// A generic fixture is a row of dimmers: each is a lamp.
   void dimmers(const std::string& name, const Patched& at) {
     for (int i = 0; i < at.channels; ++i)
-      show_.lamps.push_back({names_.fresh(at.channels > 1 ? fmt::format("{} {}", name, i + 1) : name),
-                             "generic/dimmer", "1ch", false, at.universe, at.address + i, {}, {}});
+      show_.lamps.push_back(
+          {names_.fresh(at.channels > 1 ? fmt::format("{} {}", name, i + 1) : name),
+           "generic/dimmer",
+           "1ch",
+           false,
+           at.universe,
+           at.address + i,
+           {},
+           {}});
   }
 
   void lamp(const std::string& name, const studio::Profile& profile, const std::string& mode,
@@ -79,8 +86,14 @@ class Reader {
           fmt::format("fixture '{}': its mode '{}' sets no light, or is not known", name, mode));
       return;
     }
-    show_.lamps.push_back({names_.fresh(name), profile.name, found->name, profile.pan.width() > 0,
-                           at.universe, at.address, {}, {}});
+    show_.lamps.push_back({names_.fresh(name),
+                           profile.name,
+                           found->name,
+                           profile.pan.width() > 0,
+                           at.universe,
+                           at.address,
+                           {},
+                           {}});
   }
 
   /// "0,255,3,128": channel and value in turn.
@@ -115,7 +128,8 @@ Definitions definitions_in(const std::filesystem::path& library) {
       std::string folder = maker;
       for (std::size_t at; (at = folder.find(' ')) != std::string::npos && *gap != ' ';)
         folder.replace(at, 1, gap);
-      if (folder.empty() || folder.find('/') != std::string::npos || folder.front() == '.') continue;
+      if (folder.empty() || folder.find('/') != std::string::npos || folder.front() == '.')
+        continue;
       for (fs::directory_iterator entry(library / folder, code), end; !code && entry != end;
            entry.increment(code)) {
         if (entry->path().extension() != ".qxf") continue;
@@ -137,10 +151,8 @@ core::Result<Show> read_qxw(const std::string& text, const std::string& file,
   if (const auto read = read_xml(text, file, document); !read) return read.problems();
   const pugi::xml_node engine = document.child("Workspace").child("Engine");
   if (!engine)
-    return core::Problem{{file, 0, 0},
-                         "this is no QLC+ workspace",
-                         "a .qxw file holds <Workspace><Engine>",
-                         false};
+    return core::Problem{
+        {file, 0, 0}, "this is no QLC+ workspace", "a .qxw file holds <Workspace><Engine>", false};
   Show show;
   Reader reader(definitions, show);
   for (const pugi::xml_node node : engine.children("Fixture")) reader.fixture(node);
@@ -154,7 +166,8 @@ core::Result<Show> read_qxw(const std::string& text, const std::string& file,
   }
   for (const auto& [kind, count] : others)
     show.left_out.push_back(
-        fmt::format("{} of kind {}: looks stand still", count == 1 ? "a function" : std::to_string(count) + " functions", kind));
+        fmt::format("{} of kind {}: looks stand still",
+                    count == 1 ? "a function" : std::to_string(count) + " functions", kind));
   if (document.child("Workspace").child("VirtualConsole"))
     show.left_out.emplace_back("the virtual console: Chiaro has its own panel");
   return show;

@@ -54,8 +54,8 @@ core::Result<Show> read_mvr(const std::string& bytes, const std::string& file);
 /// before the subject, and a comment says so.
 std::string studio_yaml(const Show& show, const std::string& origin);
 
-/// The studio as an MVR scene: lamps, places, patch. Bytes of the archive; the same studio gives the
-/// same bytes. `left_out` gains one sentence for each thing that MVR has no word for.
+/// The studio as an MVR scene: lamps, places, patch. Bytes of the archive; the same studio gives
+/// the same bytes. `left_out` gains one sentence for each thing that MVR has no word for.
 core::Result<std::string> mvr_of(const studio::Studio& studio, const core::AimFrame& aim,
                                  std::vector<std::string>& left_out);
 

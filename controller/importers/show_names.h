@@ -15,10 +15,12 @@ class ShowNames {
     std::string name;
     for (const char c : wish.substr(0, 60)) {
       const auto u = static_cast<unsigned char>(c);
-      const bool plain = u < 128 && (std::isalnum(u) != 0 || c == ' ' || c == '-' || c == '_' || c == '.');
+      const bool plain =
+          u < 128 && (std::isalnum(u) != 0 || c == ' ' || c == '-' || c == '_' || c == '.');
       name += plain ? c : '-';
     }
-    while (!name.empty() && std::isalnum(static_cast<unsigned char>(name.front())) == 0) name.erase(0, 1);
+    while (!name.empty() && std::isalnum(static_cast<unsigned char>(name.front())) == 0)
+      name.erase(0, 1);
     while (!name.empty() && name.back() == ' ') name.pop_back();
     if (name.empty()) name = "lamp";
     std::string each = name;

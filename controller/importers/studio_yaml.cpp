@@ -31,7 +31,8 @@ std::string lamp_yaml(const ShowLamp& lamp, std::size_t i, std::size_t count) {
   core::Vec3 aim = lamp.direction ? at + 2.0 * *lamp.direction : core::Vec3{0, 0, kAimHeight};
   if (core::distance(at, aim) < 0.01) aim = at + core::Vec3{0, 0, -1};
   std::string mode = lamp.mode;
-  for (std::size_t from = 0; (from = mode.find_first_of("\"\\", from)) != std::string::npos; from += 2)
+  for (std::size_t from = 0; (from = mode.find_first_of("\"\\", from)) != std::string::npos;
+       from += 2)
     mode.insert(from, "\\");
   return fmt::format(
       "  {}:\n    role: {}\n    profile: {}\n    mode: \"{}\"\n"
@@ -48,12 +49,14 @@ std::string studio_yaml(const Show& show, const std::string& origin) {
   const bool places = std::all_of(show.lamps.begin(), show.lamps.end(),
                                   [](const ShowLamp& lamp) { return lamp.at.has_value(); });
   std::string text = "# From " + clean + ". Roles, subject and camera are guesses: correct them.\n";
-  if (!places) text += "# The show has no places: the lamps stand in a half circle. Correct them too.\n";
+  if (!places)
+    text += "# The show has no places: the lamps stand in a half circle. Correct them too.\n";
   text +=
       "studio: imported show\n"
       "subject: {stand_in: person, eye_height: 1.25 m, at: [0, 0, 0]}\n"
       "cameras:\n"
-      "  main: {at: [0, -2.6, 1.25], look_at: [0, 0, 1.25], vertical_fov: 22 deg, lamps_may_show: yes}\n"
+      "  main: {at: [0, -2.6, 1.25], look_at: [0, 0, 1.25], vertical_fov: 22 deg, lamps_may_show: "
+      "yes}\n"
       "fixtures:\n";
   std::set<int> universes;
   for (std::size_t i = 0; i < show.lamps.size(); ++i) {

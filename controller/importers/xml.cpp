@@ -27,7 +27,8 @@ std::string_view trimmed(std::string_view words) {
 core::Result<core::Done> read_xml(const std::string& text, const std::string& file,
                                   pugi::xml_document& document) {
   if (text.size() > kMostXmlBytes)
-    return bad(file, 0, fmt::format("this XML is {} MB large, expected 16 MB at most", text.size() >> 20u),
+    return bad(file, 0,
+               fmt::format("this XML is {} MB large, expected 16 MB at most", text.size() >> 20u),
                "is it the right file?");
   if (text.find("<!ENTITY") != std::string::npos)
     return bad(file, 0, "this XML declares entities, which no fixture or show file needs",
@@ -45,7 +46,8 @@ double number_in(std::string_view words, double least, double most, double other
   words = trimmed(words);
   double value = 0;
   const auto [end, code] = std::from_chars(words.data(), words.data() + words.size(), value);
-  if (code != std::errc{} || !std::isfinite(value) || value < least || value > most) return otherwise;
+  if (code != std::errc{} || !std::isfinite(value) || value < least || value > most)
+    return otherwise;
   return value;
 }
 

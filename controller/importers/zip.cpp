@@ -91,15 +91,15 @@ core::Result<std::string> zip_member(const std::string& bytes, const std::string
   // What a header claims is not what comes out: counted again while it does.
   for (char block[1u << 16u];;) {
     const zip_int64_t got = zip_fread(reader.get(), block, sizeof block);
-    if (got < 0)
-      return bad(file, member + " is damaged", "was the file cut short? fetch it again");
+    if (got < 0) return bad(file, member + " is damaged", "was the file cut short? fetch it again");
     if (got == 0) return content;
     if (content.size() + static_cast<std::size_t>(got) > most) return too_large();
     content.append(block, static_cast<std::size_t>(got));
   }
 }
 
-core::Result<std::vector<std::string>> zip_names(const std::string& bytes, const std::string& file) {
+core::Result<std::vector<std::string>> zip_names(const std::string& bytes,
+                                                 const std::string& file) {
   const auto archive = opened(bytes, file);
   if (!archive) return archive.problems();
   std::vector<std::string> names;
@@ -144,8 +144,8 @@ core::Result<std::string> zip_of(const std::vector<std::pair<std::string, std::s
   zip_stat_init(&about);
   if (good && zip_source_stat(target, &about) == 0 && zip_source_open(target) == 0) {
     bytes.resize(about.size);
-    good = zip_source_read(target, bytes.data(), about.size) ==
-           static_cast<zip_int64_t>(about.size);
+    good =
+        zip_source_read(target, bytes.data(), about.size) == static_cast<zip_int64_t>(about.size);
     zip_source_close(target);
   }
   zip_source_free(target);

@@ -12,8 +12,9 @@
 namespace chiaro::importers {
 
 /// The named member of the archive in `bytes`, at most `most` bytes once inflated. Refused with a
-/// sentence: what is no zip or is cut short, an encrypted member, one that claims or turns out to be
-/// larger (a bomb), an archive with absurdly many members. `file` stands in the places of problems.
+/// sentence: what is no zip or is cut short, an encrypted member, one that claims or turns out to
+/// be larger (a bomb), an archive with absurdly many members. `file` stands in the places of
+/// problems.
 core::Result<std::string> zip_member(const std::string& bytes, const std::string& member,
                                      std::size_t most, const std::string& file);
 /// Names of the members. One that is absolute, or climbs out with "..", makes the archive refused.

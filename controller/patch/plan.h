@@ -25,7 +25,8 @@ namespace chiaro::patch {
 ///   the drives are sent as they are;
 /// * every other DOF goes through the channel's segments;
 /// * a channel that trims is sent what the coarse channel, already rounded, leaves over; one that
-///   repeats is sent what the controlling one is; a head's pan and tilt are counted as it is mounted;
+///   repeats is sent what the controlling one is; a head's pan and tilt are counted as it is
+///   mounted;
 /// * 1, 2 or 3 slots, most significant first, rounded once, here.
 /// A DOF that a hand sets sends 0, one without a value the channel's rest, or 0. Slots that nobody
 /// has are 0.
@@ -65,11 +66,11 @@ class Plan {
   enum class Law : std::uint8_t { constant, level, dimmed_drive, segments, by_hand };
   struct Slot {
     std::uint32_t fixture = 0;
-    std::uint32_t universe = 0;          ///< index into universes_
-    std::array<std::uint16_t, 3> at{};   ///< 0..511, most significant first
+    std::uint32_t universe = 0;         ///< index into universes_
+    std::array<std::uint16_t, 3> at{};  ///< 0..511, most significant first
     std::uint8_t bytes = 1;
     studio::ChannelUse use = studio::ChannelUse::controls;
-    std::int32_t trim = -1;              ///< of a controlling slot: the one that trims it
+    std::int32_t trim = -1;  ///< of a controlling slot: the one that trims it
     Law law = Law::constant;
     core::Dof dof = core::Dof::intensity;
     std::uint32_t constant = 0;  ///< raw, also at rest

@@ -93,7 +93,8 @@ std::optional<core::Range> head_range(const Fixture& fixture, Dof dof, core::Ran
       reach.least = std::min({reach.least, s.physical_from, s.physical_to});
       reach.most = std::max({reach.most, s.physical_from, s.physical_to});
     }
-    const core::Range both{std::max(reach.least, mounted.least), std::min(reach.most, mounted.most)};
+    const core::Range both{std::max(reach.least, mounted.least),
+                           std::min(reach.most, mounted.most)};
     return both.least <= both.most ? both : reach;
   }
   return std::nullopt;
@@ -146,7 +147,8 @@ std::vector<Channel> Fixture::wired_channels() const {
 
 int Fixture::footprint() const {
   int slots = mode < profile.modes.size() ? std::max(1, profile.modes[mode].footprint) : 1;
-  if (const auto channel = motor_of(mount)) slots = std::max(slots, channel->offset + channel->bytes);
+  if (const auto channel = motor_of(mount))
+    slots = std::max(slots, channel->offset + channel->bytes);
   return slots;
 }
 

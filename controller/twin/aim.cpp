@@ -45,8 +45,8 @@ std::optional<PanTilt> aimed_at(const studio::PanTiltMount& mount, core::Range p
   std::optional<PanTilt> best;
   double least = 0;
   const auto consider = [&](double p, double t) {
-    const auto panned = wanted->along_axis ? std::optional(pan.clamp(from.pan))
-                                           : turned(p, pan, from.pan);
+    const auto panned =
+        wanted->along_axis ? std::optional(pan.clamp(from.pan)) : turned(p, pan, from.pan);
     const auto tilted = turned(t, tilt, from.tilt);
     if (!panned || !tilted) return;
     const double way = std::max(std::abs(*panned - from.pan), std::abs(*tilted - from.tilt));

@@ -13,8 +13,11 @@ namespace {
 
 std::string mutated(std::string text, core::Random& random) {
   static const std::vector<std::string> kWords{
-      "<", ">", "\"", "</", "<!--", "<![CDATA[", "&#0;", "&x;", "{", "}", "[", "null", "-1", "1e999",
-      "99999999999999999999", "65536/2", "255/1", "nan", "\xff", std::string(1, '\0'), "../", "None"};
+      "<",         ">",     "\"",  "</",    "<!--",
+      "<![CDATA[", "&#0;",  "&x;", "{",     "}",
+      "[",         "null",  "-1",  "1e999", "99999999999999999999",
+      "65536/2",   "255/1", "nan", "\xff",  std::string(1, '\0'),
+      "../",       "None"};
   const auto below = [&](std::size_t n) {
     return n == 0 ? 0 : static_cast<std::size_t>(random.below(static_cast<std::uint32_t>(n)));
   };
@@ -55,10 +58,13 @@ void expect_a_sentence(const core::Problems& problems) {
 constexpr const char* kQxf =
     "<FixtureDefinition><Manufacturer>A</Manufacturer><Model>B</Model><Type>Moving Head</Type>"
     "<Channel Name=\"Pan\" Preset=\"PositionPan\"/><Channel Name=\"Pan fine\" "
-    "Preset=\"PositionPanFine\"/><Channel Name=\"Dim\"><Group Byte=\"0\">Intensity</Group><Capability "
+    "Preset=\"PositionPanFine\"/><Channel Name=\"Dim\"><Group "
+    "Byte=\"0\">Intensity</Group><Capability "
     "Min=\"0\" Max=\"7\">Closed</Capability><Capability Min=\"8\" Max=\"134\">Dimmer 0 - 100 %"
-    "</Capability><Capability Min=\"135\" Max=\"255\">Strobe</Capability></Channel><Mode Name=\"M\">"
-    "<Physical><Lens DegreesMin=\"10\" DegreesMax=\"40\"/><Focus PanMax=\"540\"/></Physical><Channel "
+    "</Capability><Capability Min=\"135\" Max=\"255\">Strobe</Capability></Channel><Mode "
+    "Name=\"M\">"
+    "<Physical><Lens DegreesMin=\"10\" DegreesMax=\"40\"/><Focus "
+    "PanMax=\"540\"/></Physical><Channel "
     "Number=\"0\">Pan</Channel><Channel Number=\"2\">Pan fine</Channel><Channel Number=\"1\">Dim"
     "</Channel></Mode></FixtureDefinition>";
 
@@ -87,9 +93,11 @@ TEST(ImporterMutations, EveryFixtureFileIsReadOrRefused) {
 TEST(ImporterMutations, EveryShowIsReadOrRefused) {
   const auto gdtf = zip_of({{"description.xml", samples::kGdtf}});
   const std::string scene =
-      "<GeneralSceneDescription><Scene><Layers><Layer><ChildList><Fixture name=\"a\"><Matrix>{1,0,0}"
+      "<GeneralSceneDescription><Scene><Layers><Layer><ChildList><Fixture "
+      "name=\"a\"><Matrix>{1,0,0}"
       "{0,1,0}{0,0,1}{1,2,3}</Matrix><GDTFSpec>W.gdtf</GDTFSpec><GDTFMode>Extended</GDTFMode>"
-      "<Addresses><Address break=\"0\">5</Address></Addresses></Fixture></ChildList></Layer></Layers>"
+      "<Addresses><Address "
+      "break=\"0\">5</Address></Addresses></Fixture></ChildList></Layer></Layers>"
       "</Scene></GeneralSceneDescription>";
   const Definitions nobody = [](const std::string&, const std::string&) -> std::optional<Imported> {
     return std::nullopt;

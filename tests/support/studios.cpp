@@ -57,7 +57,8 @@ const rig::AllowedLevels& allow(rig::Governor& governor, const studio::Studio& s
   const rig::AllowedLevels* levels = &governor.step(later);
   const auto arrived = [&] {
     for (std::size_t i = 0; i < states.size(); ++i)
-      for (const core::Dof dof : {core::Dof::pan, core::Dof::tilt, core::Dof::arc, core::Dof::track})
+      for (const core::Dof dof :
+           {core::Dof::pan, core::Dof::tilt, core::Dof::arc, core::Dof::track})
         if (states[i].has(dof) && levels->fixtures()[i].has(dof) &&
             levels->fixtures()[i].get(dof) != states[i].get(dof))
           return false;

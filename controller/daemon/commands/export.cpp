@@ -35,7 +35,8 @@ ports::Exit give_out(const std::string& file, const std::string& target, ports::
                   world, json);
   for (const std::string& each : left_out) world.err << "not in it: " << each << "\n";
   if (json)
-    world.out << nlohmann::json{{"ok", true}, {"file", target}, {"left_out", left_out}}.dump(2) << "\n";
+    world.out << nlohmann::json{{"ok", true}, {"file", target}, {"left_out", left_out}}.dump(2)
+              << "\n";
   else
     world.out << "Wrote " << target << "\n";
   return ports::Exit::done;

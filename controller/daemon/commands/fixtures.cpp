@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// `chiaro fixtures`: finds lamps by any word, shows what a profile says, and makes profiles of other
-// libraries' files. What is imported stands in `fixtures` beside the studio file, ready for it.
+// `chiaro fixtures`: finds lamps by any word, shows what a profile says, and makes profiles of
+// other libraries' files. What is imported stands in `fixtures` beside the studio file, ready for
+// it.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -98,7 +99,8 @@ std::string use_in_words(const Channel& channel) {
                                                  : "") +
            name;
   }
-  const auto raw = static_cast<long>(std::lround(channel.constant * (std::exp2(8 * channel.bytes) - 1)));
+  const auto raw =
+      static_cast<long>(std::lround(channel.constant * (std::exp2(8 * channel.bytes) - 1)));
   if (channel.use == ChannelUse::open) return fmt::format("held open at {}", raw);
   if (channel.use == ChannelUse::pwm)
     return fmt::format("held at {} for {:.0f} Hz", raw, channel.pwm_hz);
@@ -230,14 +232,18 @@ void declare_fixtures(CLI::App& app, ports::World& world, Verdict& verdict) {
   find->add_option("WORD", options->word, "part of a maker's or a model's name")->required();
   find->add_option("--library", options->library, "QLC+ definitions to look through too")
       ->capture_default_str();
-  find->callback([options, &world, &verdict] { verdict.exit = search(*options, world, verdict.json); });
+  find->callback(
+      [options, &world, &verdict] { verdict.exit = search(*options, world, verdict.json); });
   auto* one = verb->add_subcommand("show", "what a profile says: light, colours, modes, channels");
-  one->add_option("MAKER/MODEL", options->name, "a profile's name, as search prints it")->required();
-  one->callback([options, &world, &verdict] { verdict.exit = show(*options, world, verdict.json); });
+  one->add_option("MAKER/MODEL", options->name, "a profile's name, as search prints it")
+      ->required();
+  one->callback(
+      [options, &world, &verdict] { verdict.exit = show(*options, world, verdict.json); });
   auto* take = verb->add_subcommand("import", "makes a profile of a .gdtf, .qxf or .json file");
   take->add_option("FILE", options->file, "GDTF, QLC+ or Open Fixture Library")->required();
   take->add_flag("--force", options->force, "overwrite a profile that is there");
-  take->callback([options, &world, &verdict] { verdict.exit = take_in(*options, world, verdict.json); });
+  take->callback(
+      [options, &world, &verdict] { verdict.exit = take_in(*options, world, verdict.json); });
 }
 
 }  // namespace chiaro::daemon

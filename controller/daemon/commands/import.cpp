@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `chiaro import show.qxw|show.mvr`: lamps, patch and static scenes of another program's show become
-// a studio file, profiles and looks; what was not taken is listed, and why.
+// `chiaro import show.qxw|show.mvr`: lamps, patch and static scenes of another program's show
+// become a studio file, profiles and looks; what was not taken is listed, and why.
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <fstream>
@@ -52,7 +52,8 @@ core::Result<core::Done> write(const fs::path& file, const std::string& text) {
   out << text;
   out.close();
   if (out) return core::Done{};
-  return problem(file, "this file cannot be written", "is the folder writable, and the disk not full?");
+  return problem(file, "this file cannot be written",
+                 "is the folder writable, and the disk not full?");
 }
 
 /// What the lamps are told by a scene's raw levels: the table that encodes, backwards.
@@ -76,7 +77,8 @@ design::Look look_of(const studio::Studio& studio, const patch::Plan& plan,
 }
 
 /// A scene's name as a file's.
-fs::path look_file(const fs::path& studio, const std::string& name, std::map<std::string, int>& taken) {
+fs::path look_file(const fs::path& studio, const std::string& name,
+                   std::map<std::string, int>& taken) {
   std::string base = importers::slug(name);
   if (const int again = ++taken[base]; again > 1) base += "-" + std::to_string(again);
   return studio.parent_path() / "looks" / (base + ".json");
@@ -88,8 +90,8 @@ core::Result<core::Done> write_profiles(const importers::Show& show, const Optio
     const fs::path file = folder / (profile.name + ".yaml");
     std::error_code code;
     if (!options.force && fs::exists(file, code)) continue;  // the user may have corrected it
-    const auto written = write(file, importers::profile_yaml(
-                                         profile, fs::path(options.file).filename().string()));
+    const auto written =
+        write(file, importers::profile_yaml(profile, fs::path(options.file).filename().string()));
     if (!written) return written.problems();
   }
   return core::Done{};
@@ -105,8 +107,9 @@ ports::Exit take_in(const Options& options, ports::World& world, bool json) {
   if (!show) return refuse(show.problems(), world, json);
   for (const std::string& each : show->left_out) world.err << "not taken: " << each << "\n";
   if (show->lamps.empty())
-    return refuse({problem(options.file, "no lamp of this show could be taken", "see the list above")},
-                  world, json);
+    return refuse(
+        {problem(options.file, "no lamp of this show could be taken", "see the list above")}, world,
+        json);
   if (const auto written = write_profiles(*show, options); !written)
     return refuse(written.problems(), world, json);
   const std::string yaml =
@@ -135,21 +138,24 @@ ports::Exit take_in(const Options& options, ports::World& world, bool json) {
   else
     world.out << "Wrote " << options.out << ": " << show->lamps.size() << " lamps, "
               << show->profiles.size() << " profiles, " << show->scenes.size()
-              << " looks. Correct roles and places in it, then: chiaro check " << options.out << "\n";
+              << " looks. Correct roles and places in it, then: chiaro check " << options.out
+              << "\n";
   return ports::Exit::done;
 }
 
 }  // namespace
 
 void declare_import(CLI::App& app, ports::World& world, Verdict& verdict) {
-  auto* verb = app.add_subcommand("import", "a QLC+ workspace or an MVR scene becomes a studio file");
+  auto* verb =
+      app.add_subcommand("import", "a QLC+ workspace or an MVR scene becomes a studio file");
   auto options = std::make_shared<Options>();
   verb->add_option("SHOW", options->file, "a .qxw or .mvr file")->required();
   verb->add_option("--out", options->out, "the studio file to write")->capture_default_str();
   verb->add_option("--library", options->library, "where QLC+ keeps its fixture definitions")
       ->capture_default_str();
   verb->add_flag("--force", options->force, "overwrite files that are there");
-  verb->callback([options, &world, &verdict] { verdict.exit = take_in(*options, world, verdict.json); });
+  verb->callback(
+      [options, &world, &verdict] { verdict.exit = take_in(*options, world, verdict.json); });
 }
 
 }  // namespace chiaro::daemon

@@ -20,12 +20,10 @@ struct Verb {
   const char* word;
   ChannelUse use;
 };
-constexpr std::array kVerbs{Verb{"controls", ChannelUse::controls},
-                            Verb{"trims", ChannelUse::trims},
-                            Verb{"repeats", ChannelUse::repeats},
-                            Verb{"constant", ChannelUse::constant},
-                            Verb{"open", ChannelUse::open},
-                            Verb{"pwm", ChannelUse::pwm}};
+constexpr std::array kVerbs{
+    Verb{"controls", ChannelUse::controls}, Verb{"trims", ChannelUse::trims},
+    Verb{"repeats", ChannelUse::repeats},   Verb{"constant", ChannelUse::constant},
+    Verb{"open", ChannelUse::open},         Verb{"pwm", ChannelUse::pwm}};
 
 /// What a mount alone can give is not on a lamp's own channels.
 bool on_a_lamp(core::Dof dof) {

@@ -57,11 +57,10 @@ Profile read_profile(const Tree& tree, const std::string& name, Report& report) 
   constexpr core::Range kTurns{-8 * core::kPi, 8 * core::kPi};
   into(profile.pan, span(section.find("pan"), Measure::angle, kTurns, report));
   into(profile.tilt, span(section.find("tilt"), Measure::angle, kTurns, report));
-  into(profile.on_loss, choice<OnLoss>(section.find("on_loss"),
-                                       {{"hold", OnLoss::hold},
-                                        {"dark", OnLoss::dark},
-                                        {"full", OnLoss::full}},
-                                       report));
+  into(profile.on_loss,
+       choice<OnLoss>(section.find("on_loss"),
+                      {{"hold", OnLoss::hold}, {"dark", OnLoss::dark}, {"full", OnLoss::full}},
+                      report));
   read_assumed(section.find("assumed"), profile, report);
   into(profile.body_radius, quantity(section.find("body"), Measure::length, {0.01, 3}, report));
   profile.modes =

@@ -23,10 +23,10 @@ std::optional<double> physical(const Tree* tree, const Channel& channel, Report&
     case core::Unit::metres:
       return quantity(tree, Measure::length, {0, kFar}, report);
     case core::Unit::kelvin:
-      return quantity(tree, Measure::temperature,
-                      channel.use == ChannelUse::trims ? core::Range{-5000, 5000}
-                                                       : core::Range{1000, 25000},
-                      report);
+      return quantity(
+          tree, Measure::temperature,
+          channel.use == ChannelUse::trims ? core::Range{-5000, 5000} : core::Range{1000, 25000},
+          report);
     case core::Unit::none:
       break;
   }

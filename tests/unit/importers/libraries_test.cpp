@@ -114,7 +114,8 @@ TEST(Ofl, TakesFineBytesGapsRangesAndPixels) {
 
 TEST(Hostile, FilesAreRefusedWithASentence) {
   const std::string good = gdtf_of(samples::kGdtf);
-  EXPECT_NE(refused(good.substr(0, good.size() / 2), ".gdtf").find("no whole zip"), std::string::npos);
+  EXPECT_NE(refused(good.substr(0, good.size() / 2), ".gdtf").find("no whole zip"),
+            std::string::npos);
   EXPECT_NE(refused("", ".gdtf").find("no whole zip"), std::string::npos);
   EXPECT_NE(refused(samples::kGdtf, ".gdtf").find("no whole zip"), std::string::npos);
   const auto other = zip_of({{"readme.txt", "hello"}});
@@ -122,7 +123,8 @@ TEST(Hostile, FilesAreRefusedWithASentence) {
   EXPECT_NE(refused(*other, ".gdtf").find("holds no description.xml"), std::string::npos);
   EXPECT_NE(refused(gdtf_of(samples::kGdtf.substr(0, 900)), ".gdtf").find("not whole XML"),
             std::string::npos);
-  EXPECT_NE(refused(samples::kOfl.substr(0, 300), ".json").find("not whole JSON"), std::string::npos);
+  EXPECT_NE(refused(samples::kOfl.substr(0, 300), ".json").find("not whole JSON"),
+            std::string::npos);
   EXPECT_NE(refused(std::string(100000, '['), ".json").find("larger or deeper"), std::string::npos);
   EXPECT_NE(refused("{}", ".json").find("no fixture"), std::string::npos);
   EXPECT_NE(refused("x", ".ies").find("not read from files like this"), std::string::npos);

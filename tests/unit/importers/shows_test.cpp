@@ -58,10 +58,12 @@ TEST(Mvr, WhatGoesOutComesBackInItsPlace) {
   const auto gdtf = zip_of({{"description.xml", samples::kGdtf}});
   ASSERT_TRUE(gdtf.ok());
   const std::string scene =
-      "<GeneralSceneDescription><Scene><Layers><Layer name=\"L\"><ChildList><GroupObject name=\"G\">"
+      "<GeneralSceneDescription><Scene><Layers><Layer name=\"L\"><ChildList><GroupObject "
+      "name=\"G\">"
       "<Matrix>{1,0,0}{0,1,0}{0,0,1}{1000,0,0}</Matrix><ChildList><Fixture name=\"Wash 1\">"
       "<Matrix>{1,0,0}{0,0,1}{0,-1,0}{500,-2000,3000}</Matrix><GDTFSpec>Wash.gdtf</GDTFSpec>"
-      "<GDTFMode>Extended</GDTFMode><Addresses><Address break=\"0\">519</Address></Addresses></Fixture>"
+      "<GDTFMode>Extended</GDTFMode><Addresses><Address "
+      "break=\"0\">519</Address></Addresses></Fixture>"
       "<Fixture name=\"Lost\"><GDTFSpec>No.gdtf</GDTFSpec></Fixture><Truss name=\"T\"/></ChildList>"
       "</GroupObject></ChildList></Layer></Layers></Scene></GeneralSceneDescription>";
   const auto bytes = zip_of({{"GeneralSceneDescription.xml", scene}, {"Wash.gdtf", *gdtf}});

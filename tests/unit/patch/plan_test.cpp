@@ -84,11 +84,10 @@ TEST(Plan, SendsZeroForALampWithoutValues) {
 
 TEST(Plan, MeetsTheMiddleOfADeadBandAndStaysOutOfIt) {
   using Segment = studio::Segment;
-  const studio::Channel tint =
-      channel("tint", Dof::intensity, 0,
-              {{0, 100.0 / 255, 0, 0.5, Segment::Law::continuous},
-               {101.0 / 255, 151.0 / 255, 0.5, 0.5, Segment::Law::neutral},
-               {152.0 / 255, 1, 0.5, 1, Segment::Law::continuous}});
+  const studio::Channel tint = channel("tint", Dof::intensity, 0,
+                                       {{0, 100.0 / 255, 0, 0.5, Segment::Law::continuous},
+                                        {101.0 / 255, 151.0 / 255, 0.5, 0.5, Segment::Law::neutral},
+                                        {152.0 / 255, 1, 0.5, 1, Segment::Law::continuous}});
   const auto studio = with_channels({tint}, 1);
   const auto byte = [&](double v) {
     return encoded(studio, {state({{Dof::intensity, v}})})[0].levels[0];
@@ -131,13 +130,16 @@ TEST(Plan, CountsAHeadsAnglesAsItHangs) {
   // Hung upside down the head counts pan the other way, and shows 20 and 40 degrees when it aims
   // at its neutral point: 30 degrees to the left and 10 up are its pan -10 and tilt 50.
   const auto studio = support::studio_from(support::studio_text(
-      "  a: {role: key, profile: generic/moving-head, mode: 8ch, mount: {pan_tilt: {at: [-1, -1, 3], "
+      "  a: {role: key, profile: generic/moving-head, mode: 8ch, mount: {pan_tilt: {at: [-1, -1, "
+      "3], "
       "aim_at: [0, 0, 1.4], neutral: {pan: 20 deg, tilt: 40 deg}, invert_pan: yes}}, patch: "
       "{universe: 1, address: 1}}\n"));
   const auto frames = encoded(studio, {state({{Dof::intensity, 1},
                                               {Dof::pan, core::radians(30)},
                                               {Dof::tilt, core::radians(10)}})});
-  const auto raw = [&](int slot) { return 256 * frames[0].levels[slot] + frames[0].levels[slot + 1]; };
+  const auto raw = [&](int slot) {
+    return 256 * frames[0].levels[slot] + frames[0].levels[slot + 1];
+  };
   EXPECT_EQ(raw(0), 31554);  // (-10 + 270) / 540 * 65535 = 31553.9
   EXPECT_EQ(raw(2), 44904);  // (50 + 135) / 270 * 65535 = 44903.6
   std::vector<FixtureState> back(1);
@@ -151,7 +153,8 @@ TEST(Plan, MovesAnArcAndATrackOnTheirOwnChannels) {
       "  a: {role: key, profile: generic/dimmer, mode: 1ch, mount: {arc: {centre: [0, 0, 1.4], "
       "radius: 1.8 m, angle: [-80 deg, 80 deg], at: 0 deg, axis: {channel: 2, bits: 16}}}, patch: "
       "{universe: 1, address: 1}}\n"
-      "  b: {role: back, profile: generic/dimmer, mode: 1ch, mount: {track: {from: [-2, 1, 2.5], to: "
+      "  b: {role: back, profile: generic/dimmer, mode: 1ch, mount: {track: {from: [-2, 1, 2.5], "
+      "to: "
       "[2, 1, 2.5], at: 50 %, axis: {channel: 2}}}, patch: {universe: 1, address: 4}}\n"));
   EXPECT_EQ(studio.fixtures[0].footprint(), 3);
   const auto frames = encoded(studio, {state({{Dof::intensity, 0}, {Dof::arc, core::radians(40)}}),

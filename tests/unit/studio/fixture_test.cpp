@@ -52,12 +52,12 @@ TEST_F(FixtureOf, RangesOfAStandWithTwoChannels) {
 
 TEST_F(FixtureOf, OnlyWhatItsModeControls) {
   // 3ch-tint has a tint channel, and the arc its angle.
-  EXPECT_EQ(fixture("fill").ranges(), (Ranges{{Dof::intensity, {0, 1}},
-                                              {Dof::cct, {2700, 6500}},
-                                              {Dof::tint, {-10, 10}},
-                                              {Dof::arc, {core::radians(-80), core::radians(80)}}}));
-  EXPECT_EQ(fixture("hair").ranges(),
-            (Ranges{{Dof::intensity, {0, 1}}, {Dof::track, {0, 1}}}));
+  EXPECT_EQ(fixture("fill").ranges(),
+            (Ranges{{Dof::intensity, {0, 1}},
+                    {Dof::cct, {2700, 6500}},
+                    {Dof::tint, {-10, 10}},
+                    {Dof::arc, {core::radians(-80), core::radians(80)}}}));
+  EXPECT_EQ(fixture("hair").ranges(), (Ranges{{Dof::intensity, {0, 1}}, {Dof::track, {0, 1}}}));
   // Without a dimmer channel the drives carry the level.
   EXPECT_EQ(fixture("drive").ranges(), (Ranges{{Dof::intensity, {0, 1}},
                                                {Dof::red, {0, 1}},
@@ -70,8 +70,10 @@ TEST_F(FixtureOf, OnlyWhatItsModeControls) {
 
 TEST(Ranges, OfAHeadAreWhatItsChannelsReachOfWhatItsMountAllows) {
   const Studio studio = support::studio_from(support::studio_text(
-      "  a: {role: key, profile: generic/moving-head, mode: 8ch, mount: {pan_tilt: {at: [-1, -1, 3], "
-      "aim_at: [0, 0, 1.4], pan: [-400 deg, 90 deg], tilt: [-200 deg, 30 deg], neutral: {pan: 20 deg, "
+      "  a: {role: key, profile: generic/moving-head, mode: 8ch, mount: {pan_tilt: {at: [-1, -1, "
+      "3], "
+      "aim_at: [0, 0, 1.4], pan: [-400 deg, 90 deg], tilt: [-200 deg, 30 deg], neutral: {pan: 20 "
+      "deg, "
       "tilt: 100 deg}, invert_tilt: yes}}, patch: {universe: 1, address: 1}}\n"));
   const auto ranges = studio.fixtures[0].ranges();
   const auto range = [&](Dof dof) {

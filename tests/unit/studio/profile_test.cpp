@@ -131,13 +131,13 @@ TEST(ProfileFile, WhatIsWrongIsSaidWithItsPlace) {
 }
 
 TEST(ProfileFile, AChannelMayTrimRepeatStandOpenOrHoldAFrequency) {
-  const Profile profile = good(
-      std::string(kBicolour) +
-      "modes:\n  m:\n    - {controls: intensity}\n"
-      "    - {trims: intensity, ranges: [{dmx: [0, 255], means: [0 %, 10 %]}]}\n"
-      "    - {repeats: intensity}\n    - {open: 51}\n"
-      "    - {pwm: 2400 Hz, ranges: [{dmx: [0, 255], means: [300 Hz, 5400 Hz]}]}\n"
-      "    - {controls: cct, slots: [6, 9], rest: 65535}\n");
+  const Profile profile =
+      good(std::string(kBicolour) +
+           "modes:\n  m:\n    - {controls: intensity}\n"
+           "    - {trims: intensity, ranges: [{dmx: [0, 255], means: [0 %, 10 %]}]}\n"
+           "    - {repeats: intensity}\n    - {open: 51}\n"
+           "    - {pwm: 2400 Hz, ranges: [{dmx: [0, 255], means: [300 Hz, 5400 Hz]}]}\n"
+           "    - {controls: cct, slots: [6, 9], rest: 65535}\n");
   const auto& channels = profile.modes[0].channels;
   ASSERT_EQ(channels.size(), 6u);
   EXPECT_EQ(channels[1].use, ChannelUse::trims);
@@ -155,11 +155,12 @@ TEST(ProfileFile, AChannelMayTrimRepeatStandOpenOrHoldAFrequency) {
 }
 
 TEST(ProfileFile, WhatFollowsNeedsSomethingToFollow) {
-  EXPECT_EQ(wrong(std::string(kBicolour) +
-                  "modes: {m: [{controls: intensity}, {trims: cct, ranges: [{dmx: [0, 255], means: [0 "
-                  "K, 255 K]}]}]}\n"),
-            "b.yaml:7:12: no channel of this mode controls 'cct', yet one follows it (write "
-            "{controls: …} for the first or coarse one)\n");
+  EXPECT_EQ(
+      wrong(std::string(kBicolour) +
+            "modes: {m: [{controls: intensity}, {trims: cct, ranges: [{dmx: [0, 255], means: [0 "
+            "K, 255 K]}]}]}\n"),
+      "b.yaml:7:12: no channel of this mode controls 'cct', yet one follows it (write "
+      "{controls: …} for the first or coarse one)\n");
 }
 
 TEST(ProfileFile, ASpectrumIsAColour) {

@@ -43,7 +43,8 @@ TEST(AimedAt, PointsTheHeadAtAnyPointThatItCanReach) {
     const auto aimed = aimed_at(mount, kPan, kTilt, target, from);
     ASSERT_TRUE(aimed);
     EXPECT_TRUE(kPan.contains(aimed->pan) && kTilt.contains(aimed->tilt));
-    EXPECT_NEAR(core::distance(posed(mount, *aimed).direction, core::unit(target - mount.at)), 0, 1e-9);
+    EXPECT_NEAR(core::distance(posed(mount, *aimed).direction, core::unit(target - mount.at)), 0,
+                1e-9);
   }
 }
 
@@ -64,7 +65,8 @@ TEST(AimedAt, TiltsOverTheTopWhereThatIsNearer) {
   const double neutral = std::atan2(-1.6, std::sqrt(2.0));
   // Straight behind and level: half a turn of pan, or tilted through straight down.
   const Vec3 target = mount.at + Vec3{1, -1, 0};
-  const auto aimed = aimed_at(mount, {core::radians(-10), core::radians(10)}, kTilt, target, {0, 0});
+  const auto aimed =
+      aimed_at(mount, {core::radians(-10), core::radians(10)}, kTilt, target, {0, 0});
   ASSERT_TRUE(aimed);
   EXPECT_NEAR(aimed->pan, 0, 1e-9);
   EXPECT_NEAR(aimed->tilt, -core::kPi - neutral, 1e-9);
