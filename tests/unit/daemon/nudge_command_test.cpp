@@ -68,7 +68,7 @@ TEST_F(WordsOfLight, WithoutWordsEveryMoodIsListedWithItsTurnAndTags) {
   ASSERT_EQ(run({"moods", "--json", "warm"}), ports::Exit::done);
   const auto json = nlohmann::json::parse(fake_.out.str());
   EXPECT_GE(json["moods"].size(), 16u);
-  EXPECT_GT(json["moods"][0]["qualities"]["warmth"], 1);
+  EXPECT_GT(json["moods"][0]["qualities"]["warmth"], 0.5);
   EXPECT_EQ(json["moods"][0]["tags"]["colour"], "warm");
 }
 
