@@ -9,6 +9,8 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <string_view>
+#include <utility>
 
 namespace chiaro::core {
 namespace {
@@ -44,6 +46,23 @@ std::optional<Size> claimed_size(std::span<const std::uint8_t> b) {
 
 bool is_heif(std::span<const std::uint8_t> b) {
   return b.size() > 12 && b[4] == 'f' && b[5] == 't' && b[6] == 'y' && b[7] == 'p';
+}
+
+bool starts_with(std::span<const std::uint8_t> b, std::size_t at, std::string_view text) {
+  if (b.size() < at + text.size()) return false;
+  return std::equal(text.begin(), text.end(), b.begin() + static_cast<std::ptrdiff_t>(at),
+                    [](char c, std::uint8_t v) { return static_cast<std::uint8_t>(c) == v; });
+}
+
+/// What moves has no one light to follow. An animated PNG is also a picture: its first one is read.
+std::optional<Problem> moving(std::span<const std::uint8_t> b, const std::string& name) {
+  if (starts_with(b, 0, "GIF8"))
+    return refusal(name, "GIF pictures are not read", "save the frame you like as PNG or JPEG");
+  constexpr std::uint8_t kAnimated = 2;  // of the flags of a VP8X chunk
+  if (starts_with(b, 0, "RIFF") && starts_with(b, 8, "WEBPVP8X") && b.size() > 20 &&
+      (b[20] & kAnimated) != 0)
+    return refusal(name, "this WebP picture is animated", "save the frame you like as PNG or JPEG");
+  return std::nullopt;
 }
 
 cv::Mat eight_bit_colour(cv::Mat picture) {
@@ -126,6 +145,7 @@ Result<EncodedPicture> decode_picture(std::span<const std::uint8_t> bytes,
     return refusal(name, "the picture is empty (0 bytes)", "export it again as PNG or JPEG");
   if (is_heif(bytes))
     return refusal(name, "HEIC and AVIF pictures are not read", "export it as PNG or JPEG");
+  if (auto problem = moving(bytes, name)) return *std::move(problem);
   if (const auto size = claimed_size(bytes)) {
     if (size->width <= 0 || size->height <= 0)
       return refusal(name,
@@ -144,17 +164,24 @@ Result<EncodedPicture> decode_picture(std::span<const std::uint8_t> bytes,
   // Without IMREAD_UNCHANGED OpenCV turns the picture upright by its EXIF tag, with it alpha is
   // kept: try the first for JPEG (which has no alpha), the second for the rest.
   const bool jpeg = bytes.size() > 2 && bytes[0] == 0xff && bytes[1] == 0xd8;
-  const cv::Mat picture = cv::imdecode(raw, jpeg ? cv::IMREAD_COLOR : cv::IMREAD_UNCHANGED);
+  cv::Mat picture = cv::imdecode(raw, jpeg ? cv::IMREAD_COLOR : cv::IMREAD_UNCHANGED);
   if (picture.empty())
     return refusal(name,
                    "this is not a picture that can be read (damaged, cut short, or another format)",
                    "export it as PNG or JPEG");
   if (static_cast<std::size_t>(picture.rows) * static_cast<std::size_t>(picture.cols) > kMostPixels)
     return refusal(name, "the picture is too large", "make it smaller: 2 megapixels are plenty");
-  const cv::Mat colour = eight_bit_colour(picture);
+  // The common kind is turned round in place: fifty megapixels are 150 MB a copy.
+  const cv::Mat colour =
+      picture.type() == CV_8UC3 ? picture : eight_bit_colour(std::exchange(picture, {}));
+  const bool reversed = !picture.empty();
   EncodedPicture out({colour.cols, colour.rows});
-  for (int y = 0; y < colour.rows; ++y)
-    std::copy_n(colour.ptr<std::uint8_t>(y), 3 * colour.cols, out.row(y)->data());
+  for (int y = 0; y < colour.rows; ++y) {
+    const std::uint8_t* from = colour.ptr<std::uint8_t>(y);
+    for (auto* to = out.row(y); to != out.row(y) + colour.cols; ++to, from += 3)
+      *to =
+          reversed ? std::array{from[2], from[1], from[0]} : std::array{from[0], from[1], from[2]};
+  }
   return out;
 } catch (const std::exception& error) {
   return refusal(name, std::string("the picture cannot be read: ") + error.what(),
@@ -173,6 +200,34 @@ Result<EncodedPicture> read_picture(const std::filesystem::path& file) {
   in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   if (!in) return refusal(file.string(), "the picture cannot be read", "check its permissions");
   return decode_picture(bytes, file.string());
+}
+
+Picture linear_at_most(const EncodedPicture& picture, std::size_t pixels) {
+  int step = 1;
+  while (picture.size.pixels() / (static_cast<std::size_t>(step) * static_cast<std::size_t>(step)) >
+         pixels)
+    ++step;
+  if (step == 1) return linear(picture);
+  std::array<float, 256> light{};
+  for (int i = 0; i < 256; ++i)
+    light[static_cast<std::size_t>(i)] = static_cast<float>(srgb_linear(i / 255.0));
+  const Size size{std::max(1, picture.size.width / step), std::max(1, picture.size.height / step)};
+  Picture out(size);
+  const float share = 1.0f / static_cast<float>(step * step);
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x) {
+      std::array<float, 3> sum{};
+      for (int dy = 0; dy < step; ++dy)
+        for (int dx = 0; dx < step; ++dx) {
+          const auto& c = picture.at(std::min(x * step + dx, picture.size.width - 1),
+                                     std::min(y * step + dy, picture.size.height - 1));
+          for (std::size_t k = 0; k < 3; ++k) sum[k] += light[c[k]];
+        }
+      out.red.at(x, y) = share * sum[0];
+      out.green.at(x, y) = share * sum[1];
+      out.blue.at(x, y) = share * sum[2];
+    }
+  return out;
 }
 
 std::vector<std::uint8_t> encode_png(const EncodedPicture& picture) {

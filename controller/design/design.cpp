@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "controller/design/colours.h"
+#include "controller/design/comfort.h"
 #include "controller/design/exposure.h"
 #include "controller/design/judge.h"
 #include "controller/design/match.h"
@@ -161,6 +162,11 @@ core::Result<Look> design(const studio::Studio& studio, const LayersSource& twin
   const auto moves = instructions(studio, studio::placed_rig(studio), look.wanted);
   look.instructions.insert(look.instructions.end(), moves.begin(), moves.end());
   warn_of_places(studio, layers, studio::placed_rig(studio), look.warnings);
+  if (layers.geometry() != nullptr)
+    for (const std::string& word :
+         comfort_in_words(studio, look.wanted,
+                          comfort_of(studio, layers, look.wanted, look.picture), options.glasses))
+      look.warnings.push_back(word);
   if (const std::string mixed = mixed_light_in_words(studio, look.wanted); !mixed.empty())
     look.warnings.push_back(mixed);
   look.trials = watch.trials();

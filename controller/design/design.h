@@ -61,6 +61,7 @@ struct Options {
   /// By example: compare how the light falls on the face, whatever the skin, the clothes and the
   /// background; see pattern.h. Levels then do not depend on our sitter's skin.
   bool normalise = false;
+  bool glasses = false;    ///< the sitter wears them: places whose lamp shows in them cost more
   bool reference = false;  ///< yardstick: no cache, one thread, levels searched
   /// Squares whose side is a power of two. Search: where tracing is cheapest. Polish: the best few
   /// basins. Full: the last levels, colours and verdicts, exact visibility.

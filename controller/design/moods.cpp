@@ -202,7 +202,7 @@ core::Result<ExampleGoal> goal_of(const Mood& mood, Objective objective) {
   if (!picture) return picture.problems();
   ExampleGoal goal;
   goal.name = mood.name;
-  goal.exemplar = core::linear(*picture);
+  goal.exemplar = core::linear_at_most(*picture);
   goal.objective = objective;
   goal.targets3d = mood.targets;
   goal.drawn_here = mood.targets.has_value();

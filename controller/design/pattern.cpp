@@ -15,12 +15,13 @@ constexpr std::size_t kFields = 6;  // of background: three across, two down
 constexpr std::size_t kCells = kFace + kBody + kFields;
 
 // The face inside its box: an ellipse without the hair line, in shares of the box's side.
-constexpr double kHalfWidth = 0.43, kHalfHeight = 0.5, kMiddle = 0.03, kBrow = -0.36;
+constexpr double kHalfWidth = 0.39, kHalfHeight = 0.5, kMiddle = 0.03, kBrow = -0.36;
 // A cell counts where our subject fills this share of it; the exemplar must fill as much.
 constexpr double kFilled = 0.5;
 // How much the parts weigh: the half of the face's differences that is not symmetrical, the half
-// that is, the rest of the person, the background. Found by `chiaro study transfer`.
-constexpr double kLopsided = 1, kAlike = 0.5, kBodyWeight = 0.02, kFieldWeight = 0.02;
+// that is (on skin alone), the rest of the person, the background. Found by trial on portraits of
+// other heads, see `chiaro study transfer`.
+constexpr double kLopsided = 1, kAlike = 1, kBodyWeight = 0.02, kFieldWeight = 0.02;
 // Differences in hair and clothes say little once they are large, working scalar.
 constexpr double kOdd = 30;
 constexpr double kScale = 2.55;
@@ -32,6 +33,19 @@ double slope_at(double y) {
   if (y >= 1) return 0;
   const double f = (core::lightness(std::max(y, 0.0)) + 16) / 116;
   return std::min(kScale * 116 / (3 * f * f), kScale * 903.3);
+}
+
+/// How much of what is alike on both halves a cell may say: skin alone, not eyes, brows, mouth or
+/// hair. `u` to the right, `v` down, from the middle of the box, in shares of its side.
+double skin_there(double u, double v) {
+  const double side = std::abs(u);
+  const auto inside = [&](double u0, double u1, double v0, double v1) {
+    return side >= u0 && side < u1 && v >= v0 && v < v1;
+  };
+  if (inside(0.06, 0.34, -0.02, 0.2) || inside(0, 0.08, -0.12, 0.14)) return 1;  // cheeks, nose
+  if (inside(0.16, 0.3, 0.2, 0.36) || inside(0, 0.16, 0.36, 0.47)) return 0.7;   // jaw, chin
+  if (inside(0, 0.24, -0.34, -0.22)) return 0.5;                                 // forehead
+  return 0.1;
 }
 
 bool in_face(double u, double v) {
@@ -132,15 +146,25 @@ void pyramid(std::vector<double> square, double weight, double* out) {
   *out = std::sqrt(level_share) * square.front();
 }
 
+std::array<double, kFace> skin_weights() {
+  std::array<double, kFace> weights{};
+  for (int y = 0; y < kFaceCells; ++y)
+    for (int x = 0; x < kFaceCells; ++x)
+      weights[static_cast<std::size_t>(y * kFaceCells + x)] =
+          skin_there((x + 0.5) / kFaceCells - 0.5, (y + 0.5) / kFaceCells - 0.5);
+  return weights;
+}
+
 /// Residuals whose squares sum to the cost's square, of differences per cell.
 std::vector<double> residuals(const std::vector<double>& cells, const std::vector<double>& odd) {
+  static const std::array<double, kFace> kSkin = skin_weights();
   std::vector<double> lopsided(kFace), alike(kFace), out(kResiduals);
   for (int y = 0; y < kFaceCells; ++y)
     for (int x = 0; x < kFaceCells; ++x) {
       const auto i = static_cast<std::size_t>(y * kFaceCells + x),
                  m = static_cast<std::size_t>(y * kFaceCells + kFaceCells - 1 - x);
       lopsided[i] = (cells[i] - cells[m]) / 2;
-      alike[i] = (cells[i] + cells[m]) / 2;
+      alike[i] = kSkin[i] * (cells[i] + cells[m]) / 2;
     }
   pyramid(std::move(lopsided), kLopsided, out.data());
   pyramid(std::move(alike), kAlike, out.data() + 1 + kDetails);

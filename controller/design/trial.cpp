@@ -3,13 +3,37 @@
 
 #include <algorithm>
 
+#include "controller/design/comfort.h"
+
 namespace chiaro::design {
 namespace {
+
+constexpr double kHabit = 0.02;
+constexpr double kGlare = 0.5;  // of the cost, were all the light in the glasses
 
 /// A state without its level: what a layer depends on.
 core::FixtureState at_full(core::FixtureState state) {
   state.set(core::Dof::intensity, 1);
   return state;
+}
+
+/// How far lamps are from where portraits usually have them, as a share of the cost. Another face
+/// says only so much about where its light came from: of places that fit alike the usual one wins.
+double unusual(const studio::Studio& studio, const studio::Rig& rig) {
+  double key_side = 0, sum = 0;
+  const auto off = [&](std::size_t i, core::Dof dof, double usual_deg, double spread_deg) {
+    const double d = (core::degrees(rig.states[i].get(dof)) - usual_deg) / spread_deg;
+    return d * d;
+  };
+  for (std::size_t i = 0; i < studio.fixtures.size(); ++i)
+    if (studio.fixtures[i].role == studio::Role::key && rig.states[i].has(core::Dof::azimuth)) {
+      key_side = rig.states[i].get(core::Dof::azimuth) < 0 ? -1 : 1;
+      sum += off(i, core::Dof::elevation, 42, 18);  // "45° up", say the books
+    }
+  for (std::size_t i = 0; i < studio.fixtures.size(); ++i)
+    if (studio.fixtures[i].role == studio::Role::fill && rig.states[i].has(core::Dof::azimuth))
+      sum += off(i, core::Dof::elevation, 10, 15) + off(i, core::Dof::azimuth, -25 * key_side, 30);
+  return kHabit * sum;
 }
 
 }  // namespace
@@ -100,6 +124,11 @@ bool Workspace::feasible(const studio::Rig& rig) const {
 Workspace::Scored Workspace::solve(const studio::Rig& rig, Effort effort) {
   if (!feasible(rig)) return {};
   Levels levels = solver_->solve(columns(rig), effort);
+  if (setting_.target.kind == Target::Kind::pattern)
+    levels.cost *= 1 + unusual(setting_.studio, rig);
+  if (setting_.variables.glasses)
+    levels.cost *= 1 + kGlare * glare_share(setting_.studio,
+                                            with_levels(setting_.variables, rig, levels.values));
   return {levels.cost, std::move(levels.values)};
 }
 

@@ -122,6 +122,7 @@ const studio::Region* region_of(const studio::Fixture& fixture) {
 Variables variables_of(const studio::Studio& studio, const Options& options) {
   Variables variables;
   variables.base = options.start ? *options.start : studio::placed_rig(studio);
+  variables.glasses = options.glasses;
   for (std::size_t i = 0; i < studio.fixtures.size(); ++i) {
     const studio::Fixture& fixture = studio.fixtures[i];
     if (!fixture.controlled || is_locked(options, fixture.name)) {

@@ -25,6 +25,7 @@ struct Variables {
   std::vector<std::size_t> lit;     ///< fixtures whose level is solved, ascending
   std::vector<std::size_t> held;    ///< fixtures that stay as `base` has them, ascending
   std::vector<core::Range> limits;  ///< of the level, beside `lit`
+  bool glasses = false;             ///< the sitter wears them
 
   std::vector<core::Range> bounds() const;
   /// `base` with the placements of a point.

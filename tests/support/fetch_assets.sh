@@ -32,5 +32,22 @@ for person in mannequinMale mannequinBrunette; do
   [ -s "$folder/scopia/$person/$person.obj" ] ||
     unzip -q -o "$folder/Scopia.sh3f" "scopia/$person/*" -d "$folder"
 done
+# Heads for `chiaro study transfer`.
+unpack sweethome3d-furniture usr/share/sweethome3d/furniture/Reallusion.sh3f
+for person in male01 male02 male03 female01 female02 female03 girlStanding; do
+  [ -s "$folder/reallusion/$person/$person.obj" ] ||
+    unzip -q -o "$folder/Reallusion.sh3f" "reallusion/$person/*" -d "$folder"
+done
+# ivcat is in inventor-clients, which not every machine has: without it those three stay away.
+if command -v ivcat > /dev/null; then
+  models=usr/share/inventor/data/models/CyberHeads
+  unpack inventor-data $models/josie.iv $models/paul.iv $models/rikk.iv
+  for head in josie paul rikk; do
+    mkdir -p "$folder/cyber/$head"
+    [ -s "$folder/cyber/$head/$head.obj" ] ||
+      ivcat "$folder/$head.iv" |
+        awk -v out="$folder/cyber/$head/$head" -f "$(dirname "$0")/quad_mesh.awk"
+  done
+fi
 rmdir "$folder/packages"
 ls -l "$folder"

@@ -28,7 +28,7 @@ core::Result<design::Goal> goal_of_picture(const std::string& bytes, const std::
   if (!picture) return picture.problems();
   design::ExampleGoal goal;
   goal.name = name;
-  goal.exemplar = core::linear(*picture);
+  goal.exemplar = core::linear_at_most(*picture);
   goal.objective = objective;
   return design::Goal(std::move(goal));
 }
@@ -71,6 +71,7 @@ DesignTask Brain::task_of(const panel::StartDesign& ask, design::Goal goal) cons
   task.options.trials = ask.trials;
   task.options.budget_s = ask.budget_s;
   task.options.move_stands = ask.move_stands;
+  task.options.align = task.options.normalise = true;
   task.options.locked = ask.lock;
   task.options.align = task.options.normalise = !drawn_on_our_sitter(ask);
   for (std::size_t i = 0; i < studio_.fixtures.size(); ++i) {

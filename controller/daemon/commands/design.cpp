@@ -24,11 +24,11 @@ namespace {
 /// As typed.
 struct Asked {
   std::string studio, mood, exemplar, targets, goal = "wavelet", optimiser, exposure = "locked";
-  std::string align = "none", out, picture, budget, blend;
+  std::string align = "auto", normalise = "auto", out, picture, budget, blend;
   std::vector<std::string> lock;
   std::uint64_t seed = 1, trials = 0;
   int threads = 0;
-  bool ideal = false, reference = false;
+  bool ideal = false, reference = false, glasses = false;
 };
 
 double seconds_of(const ports::World& world) {
@@ -104,7 +104,7 @@ core::Result<design::Goal> picture_goal(const std::string& file, design::Objecti
   if (!picture) return picture.problems();
   design::ExampleGoal goal;
   goal.name = std::filesystem::path(file).stem().string();
-  goal.exemplar = core::linear(*picture);
+  goal.exemplar = core::linear_at_most(*picture);
   goal.objective = objective;
   return design::Goal(std::move(goal));
 }
@@ -170,7 +170,10 @@ design::Options options_from(const Asked& asked, ports::World& world, ProgressLi
   if (!asked.budget.empty()) options.budget_s = budget_seconds(asked.budget);
   options.locked = asked.lock;
   options.advise_exposure = asked.exposure == "advise";
-  options.align = asked.align == "auto";
+  // The yardstick is the thesis, which compares pixel with pixel.
+  options.align = asked.align == "auto" && !asked.reference;
+  options.normalise = asked.normalise == "auto" && !asked.reference;
+  options.glasses = asked.glasses;
   options.reference = asked.reference;
   const int cores = static_cast<int>(std::thread::hardware_concurrency());
   options.threads = asked.reference ? 1 : asked.threads > 0 ? asked.threads : std::max(1, cores);
@@ -297,8 +300,13 @@ void add_options(CLI::App& verb, Asked& asked) {
                   "advise: may tell you to change the camera (default locked)")
       ->check(CLI::IsMember({"locked", "advise"}));
   verb.add_option("--align", asked.align,
-                  "auto: shifts and scales the picture to lie on the subject (default none)")
+                  "auto: lays the picture on the subject by face or outline (default auto)")
       ->check(CLI::IsMember({"auto", "none"}));
+  verb.add_option("--normalise", asked.normalise,
+                  "auto: compares light, whatever skin, clothes and background (default auto)")
+      ->check(CLI::IsMember({"auto", "none"}));
+  verb.add_flag("--glasses", asked.glasses,
+                "the sitter wears glasses: lamps keep from where they would show in them");
   verb.add_option("--out", asked.out, "where to write the look (look.json)");
   verb.add_option("--picture", asked.picture, "where to write the predicted picture (PNG)");
   verb.add_flag("--reference", asked.reference,

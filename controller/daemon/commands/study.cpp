@@ -135,6 +135,9 @@ void declare_study(CLI::App& app, ports::World& world, Verdict& verdict) {
   verb->add_option("--threads", wish->options.threads, "at most this many")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
+  verb->add_option("--assets", wish->options.assets,
+                   "heads and photographs of Debian packages (tests/support/fetch_assets.sh)")
+      ->check(CLI::ExistingDirectory);
   verb->add_option("--out", wish->out, "a folder; each study writes into one of its own below it")
       ->capture_default_str();
   verb->footer("Studies:\n" + list_of_studies());

@@ -23,6 +23,7 @@ struct Options {
   bool quick = false;  ///< a look, not a record: small pictures, few items
   int items = 0;       ///< how many of whatever the study counts; 0 = its own number
   int threads = 2;
+  std::string assets;  ///< folder of meshes and photographs from packages; empty: none
 
   int items_or(int whole, int few) const { return items > 0 ? items : quick ? few : whole; }
 };

@@ -110,6 +110,96 @@ std::vector<std::uint8_t> with_orientation(std::vector<std::uint8_t> jpeg, std::
   return jpeg;
 }
 
+TEST(DecodePicture, AGifIsRefusedWithItsRemedy) {
+  const std::string gif = "GIF89a____________________________";
+  EXPECT_EQ(refusal({gif.begin(), gif.end()}),
+            "a.png: GIF pictures are not read (save the frame you like as PNG or JPEG)");
+}
+
+TEST(DecodePicture, AnAnimatedWebpIsRefusedWithItsRemedy) {
+  std::string webp = "RIFF____WEBPVP8X____";
+  webp += '\x02';
+  webp += "_____________________";
+  EXPECT_EQ(refusal({webp.begin(), webp.end()}),
+            "a.png: this WebP picture is animated (save the frame you like as PNG or JPEG)");
+}
+
+TEST(DecodePicture, AnAnimatedPngGivesItsFirstPicture) {
+  // An acTL chunk (two frames, for ever) between IHDR and the picture; its CRC is right.
+  std::vector<std::uint8_t> bytes = png(1, 1, PngColour::rgb, 8, {10, 20, 30});
+  const std::vector<std::uint8_t> chunk{0, 0, 0, 8, 'a', 'c', 'T',  'L',  0,    0,
+                                        0, 2, 0, 0, 0,   0,   0xf3, 0x8d, 0x93, 0x70};
+  bytes.insert(bytes.begin() + 33, chunk.begin(), chunk.end());
+  EXPECT_EQ(good(bytes).at(0, 0), (Pixel{10, 20, 30}));
+}
+
+TEST(DecodePicture, InksBecomeLight) {
+  // 8 x 8 in CMYK as press and Photoshop write it (inverted): no cyan, much magenta and yellow.
+  const std::vector<std::uint8_t> bytes{
+      255, 216, 255, 238, 0,  14, 65, 100, 111, 98,  101, 0,  100, 0,   0,   0,   0,   0,  255, 219,
+      0,   67,  0,   3,   2,  2,  3,  2,   2,   3,   3,   3,  3,   4,   3,   3,   4,   5,  8,   5,
+      5,   4,   4,   5,   10, 7,  7,  6,   8,   12,  10,  12, 12,  11,  10,  11,  11,  13, 14,  18,
+      16,  13,  14,  17,  14, 11, 11, 16,  22,  16,  17,  19, 20,  21,  21,  21,  12,  15, 23,  24,
+      22,  20,  24,  18,  20, 21, 20, 255, 192, 0,   20,  8,  0,   8,   0,   8,   4,   67, 17,  0,
+      77,  17,  0,   89,  17, 0,  75, 17,  0,   255, 196, 0,  21,  0,   1,   1,   0,   0,  0,   0,
+      0,   0,   0,   0,   0,  0,  0,  0,   0,   0,   8,   9,  255, 196, 0,   20,  16,  1,  0,   0,
+      0,   0,   0,   0,   0,  0,  0,  0,   0,   0,   0,   0,  0,   0,   255, 218, 0,   14, 4,   67,
+      0,   77,  0,   89,  0,  75, 0,  0,   63,  0,   170, 97, 224, 120, 170, 111, 255, 217};
+  const Pixel seen = good(bytes).at(4, 4);
+  EXPECT_GT(seen[0], 240);
+  EXPECT_NEAR(seen[1], 55, 12);
+  EXPECT_NEAR(seen[2], 55, 12);
+}
+
+TEST(DecodePicture, ATiffOfSixteenBitsIsRead) {
+  // Little-endian, one strip, RGB 16 bit, 2 x 1.
+  std::vector<std::uint8_t> bytes{'I', 'I', 42, 0, 8, 0, 0, 0};
+  const auto put = [&](std::uint32_t v, int n) {
+    for (int i = 0; i < n; ++i) bytes.push_back(static_cast<std::uint8_t>(v >> (8 * i)));
+  };
+  const auto tag = [&](std::uint32_t id, std::uint32_t type, std::uint32_t n, std::uint32_t v) {
+    put(id, 2), put(type, 2), put(n, 4), put(v, 4);
+  };
+  put(9, 2);
+  tag(256, 3, 1, 2), tag(257, 3, 1, 1), tag(258, 3, 3, 122), tag(259, 3, 1, 1), tag(262, 3, 1, 2);
+  tag(273, 4, 1, 128), tag(277, 3, 1, 3), tag(278, 3, 1, 1), tag(279, 4, 1, 12);
+  put(0, 4);
+  put(16, 2), put(16, 2), put(16, 2);
+  for (const std::uint32_t v : {0u, 257u * 100, 65535u, 257u * 7, 257u * 8, 257u * 9}) put(v, 2);
+  const auto picture = good(bytes);
+  ASSERT_EQ(picture.size, (Size{2, 1}));
+  EXPECT_EQ(picture.at(0, 0), (Pixel{0, 100, 255}));
+  EXPECT_EQ(picture.at(1, 0), (Pixel{7, 8, 9}));
+}
+
+TEST(DecodePicture, FiftyMegapixelsAreReadAndShrunkToWhatLightNeeds) {
+  constexpr Size kSize{8192, 6144};
+  std::vector<std::uint8_t> file;
+  {
+    EncodedPicture large(kSize, {40, 80, 160});
+    for (int y = 0; y < kSize.height; ++y)
+      std::fill(large.row(y), large.row(y) + kSize.width / 2, std::array<std::uint8_t, 3>{});
+    file = encode_jpeg(large, 60);
+  }
+  const EncodedPicture picture = good(file);
+  ASSERT_EQ(picture.size, kSize);
+  const Picture light = linear_at_most(picture);
+  EXPECT_LE(light.size().pixels(), kPixelsOfExemplar);
+  EXPECT_GE(light.size().pixels(), kPixelsOfExemplar / 2);
+  EXPECT_NEAR(light.at(light.size().width - 5, 5).b, srgb_linear(160 / 255.0), 0.02);
+  EXPECT_NEAR(light.at(5, 5).b, 0, 0.002);
+}
+
+TEST(LinearAtMost, AveragesLightAndLeavesSmallPicturesAlone) {
+  EncodedPicture picture({4, 2}, {255, 255, 255});
+  picture.at(0, 0) = picture.at(1, 0) = {0, 0, 0};
+  const Picture small = linear_at_most(picture, 2);
+  EXPECT_EQ(small.size(), (Size{2, 1}));
+  EXPECT_NEAR(small.at(0, 0).r, 0.5, 1e-6);
+  EXPECT_NEAR(small.at(1, 0).r, 1, 1e-6);
+  EXPECT_EQ(linear_at_most(picture, 8).red, linear(picture).red);
+}
+
 TEST(DecodePicture, ExifTurnsAJpegUpright) {
   EncodedPicture picture({32, 16}, {255, 255, 255});  // left half white, right half black
   for (int y = 0; y < 16; ++y)
