@@ -37,11 +37,12 @@ class Dialogue {
     return ask<std::string>(question, otherwise, [](const std::string& line) { return line; });
   }
   void say(const std::string& line);
+  /// Each problem with its remedy, a line each.
+  void complain(const core::Problems& problems);
   bool ended() const { return ended_; }
 
  private:
   std::string answer(const std::string& question, const std::string& otherwise);
-  void complain(const core::Problems& problems);
 
   std::istream& in_;
   std::ostream& out_;
