@@ -36,6 +36,7 @@ struct ExampleGoal {
   /// The shipped sitter before the shipped studio's camera, as chiaro-draw draws moods: face and
   /// skin are known.
   bool drawn_here = false;
+  double sitter_turn = 0;  ///< radians, of a mood drawn with its sitter turned (moods.h)
   std::shared_ptr<const Matched> matched;  ///< the engine's own: callers leave it null
 };
 using Goal = std::variant<IdealGoal, ExampleGoal>;

@@ -206,6 +206,7 @@ core::Result<ExampleGoal> goal_of(const Mood& mood, Objective objective) {
   goal.objective = objective;
   goal.targets3d = mood.targets;
   goal.drawn_here = mood.targets.has_value();
+  goal.sitter_turn = mood.sitter_turn;
   return goal;
 }
 

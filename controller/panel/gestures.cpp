@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <sstream>
 
-#include "controller/panel/gestures/made.h"
+#include "controller/panel/made.h"
 
 namespace chiaro::panel {
 namespace {

@@ -118,7 +118,7 @@ TEST_F(Wire, KillingTheBrainLeavesTheSequenceUnbrokenAndItReturnsWithTheSameLook
   ASSERT_TRUE(eventually([&] {
     const auto now = state();
     return now.is_object() && now["instructions"].empty() && now["look"].is_object() &&
-           now["look"].value("fade", 0.0) >= 1;
+           now["look"].value("name", "") == "test" && now["look"].value("fade", 0.0) >= 1;
   })) << demo_->err();
   const auto before = state();
   const auto levels = last_levels();

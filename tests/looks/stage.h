@@ -70,6 +70,7 @@ inline core::Result<design::Look> designed(const Room& room, const design::Mood&
   if (!goal) return goal.problems();
   design::Options options;
   options.trials = trials;
+  options.align = options.normalise = true;
   return design::design(room.studio, **layers, *goal, options);
 }
 

@@ -49,7 +49,7 @@ interview::LearntLamp learnt(const panel::LearnLamp& seen) {
   interview::LearntLamp lamp;
   lamp.profile = interview::profile_name(seen.name);
   lamp.maker = seen.maker;
-  lamp.model = seen.model;
+  lamp.model = seen.model.empty() ? seen.name : seen.model;
   lamp.output_cd = seen.output_cd;
   lamp.cct = seen.cct;
   for (const auto& slot : seen.slots) lamp.slots.push_back({slot.sees, slot.level});

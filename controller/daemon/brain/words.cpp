@@ -54,6 +54,7 @@ std::string gel_in_words(double from_k, double to_k) {
   };
   // Shifts in mired as Lee Filters print them.
   static constexpr Gel kGels[] = {{159, "full CTO (Lee 204)"},
+                                  {124, "¾ CTO (Lee 285)"},
                                   {109, "½ CTO (Lee 205)"},
                                   {64, "¼ CTO (Lee 206)"},
                                   {26, "⅛ CTO (Lee 223)"},

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-#include "controller/panel/gestures/made.h"
+#include "controller/panel/made.h"
 
 namespace chiaro::panel {
 namespace {

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "controller/core/light_units.h"
-#include "controller/panel/gestures/made.h"
+#include "controller/panel/made.h"
 
 namespace chiaro::panel {
 namespace {

@@ -4,7 +4,7 @@
 #include <cctype>
 #include <cstdint>
 
-#include "controller/panel/gestures/made.h"
+#include "controller/panel/made.h"
 
 namespace chiaro::panel {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "controller/panel/gestures/made.h"
+#include "controller/panel/made.h"
 
 #include <charconv>
 #include <fmt/format.h>

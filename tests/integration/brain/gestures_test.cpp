@@ -156,7 +156,7 @@ TEST(HandWords, SayWhatAPersonDoes) {
   EXPECT_EQ(words(core::Dof::intensity, HandKind::flash_power, 0.25), "set key to 1/4 power");
   EXPECT_EQ(words(core::Dof::intensity, HandKind::knob, 0.62), "turn key's level to 62 %");
   EXPECT_EQ(words(core::Dof::cct, HandKind::gel, 3200),
-            "put full CTO (Lee 204) on key, for 3200 K");
+            "put ¾ CTO (Lee 285) on key, for 3200 K");
   EXPECT_EQ(words(core::Dof::cct, HandKind::gel, 5600), "take the gel off key");
   EXPECT_EQ(words(core::Dof::cct, HandKind::knob, 4300), "turn key's colour to 4300 K");
 }

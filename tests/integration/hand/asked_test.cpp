@@ -72,7 +72,7 @@ TEST_F(Asked, RecordsCuesAndPlaysThemWhenTheBrainHasGone) {
   ask("cue record 1 fade 0 name First light");
   look(0, 1, 2);
   run(200ms);
-  ask("cue record 2 fade 1 follow 2");
+  ask("cue record 2 fade 1 follow 20");
   look(0.5, 0.5, 3);
   run(200ms);
   EXPECT_EQ(ask("cue record 3 fade 0")["cues"].size(), 3u);
@@ -85,7 +85,7 @@ TEST_F(Asked, RecordsCuesAndPlaysThemWhenTheBrainHasGone) {
   run(1100ms);
   EXPECT_EQ(slot(1), 0);
   EXPECT_EQ(slot(2), 255);
-  run(1s);  // cue 3 follows by itself
+  run(20s);  // cue 3 follows by itself
   EXPECT_EQ(slot(1), 128);
   EXPECT_TRUE(refuses("cue go", "cue 3 is the last one"));
   ask("cue back");

@@ -6,6 +6,7 @@
 #include "controller/daemon/file_lock.h"
 #include "controller/daemon/hand_link.h"
 #include "controller/daemon/output/hand.h"
+#include "drivers/common/surroundings.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/fake_world.h"
 #include "tests/support/studios.h"
@@ -27,7 +28,9 @@ class Loop : public testing::Test {
   }
   std::unique_ptr<Show> show(const studio::Studio& studio, const Show* before = nullptr) {
     core::Problems warnings;
-    auto made = Show::make(studio, {}, world_.world, nullptr, before, warnings);
+    Show::Options options;
+    options.around = &around_;
+    auto made = Show::make(studio, options, world_.world, nullptr, before, warnings);
     if (!made) throw std::runtime_error(core::to_string(made.problems()));
     return std::move(*made);
   }
@@ -42,6 +45,7 @@ class Loop : public testing::Test {
   support::FakeClock clock_{support::FakeClock::Sleep::jumps};
   support::FakeNetwork network_;
   support::FakeWorld world_{clock_, network_, folder_.path()};
+  drivers::Surroundings around_{world_.world.network, world_.world.devices, world_.world.clock};
 };
 
 TEST_F(Loop, AllocatesNothingWhileItFadesReportsAndIsSwapped) {

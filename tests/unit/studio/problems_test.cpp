@@ -163,7 +163,7 @@ INSTANTIATE_TEST_SUITE_P(
              "example universe 1: {sacn: {interface: eth0}})"},
         Case{"BadUnicast", "10.0.0.7", "10.0.0.700", "10.0.0.700",
              "'10.0.0.700' is no IPv4 address (for example 192.168.0.20)"},
-        Case{"AboveTheCeiling", "[-0.8, 1.1, 2.3]", "[-0.8, 1.1, 3.3]", "tungsten:",
+        Case{"AboveTheCeiling", "[-0.8, 1.1, 2.3]", "[-0.8, 1.1, 3.3]", "tungsten:\n",
              "'tungsten' is at a height of 3.3 m, above the ceiling (3.048 m) (lower it, or "
              "correct 'ceiling')"},
         Case{
