@@ -9,7 +9,7 @@ import { png } from './mock_daemon.mjs';
 import { startStudio } from './studio.mjs';
 
 const bin = process.env.CHIARO_BIN;
-const patience = 600_000; // a busy machine is slow, not wrong
+const patience = 60_000; // a busy machine is slow, not wrong
 let browser;
 let studio;
 let page;
@@ -138,6 +138,7 @@ test('a look is saved, and recalled after another', async () => {
   await page.getByRole('tab', { name: /Saved looks/ }).click();
   await page.locator(`[data-look="${look.id}"]`).click();
   await page.locator('#look-title', { hasText: 'Anna' }).waitFor();
+  await faded();
   await page.getByRole('tab', { name: 'Moods' }).click();
 });
 
