@@ -11,10 +11,10 @@ constexpr std::array<std::uint8_t, 8> kIdentifier{'A', 'r', 't', '-', 'N', 'e', 
 
 /// Where the fields of an ArtPollReply sit. It alone has no protocol version.
 namespace at {
-constexpr std::size_t ip = 10, port = 14, net = 18, sub_net = 19, status = 23, esta = 24,
-                      short_name = 26, long_name = 44, report = 108, ports = 172, port_types = 174,
-                      good_input = 178, good_output = 182, in = 186, out = 190, style = 200,
-                      mac = 201, bind_ip = 207, bind_index = 211, status2 = 212;
+constexpr std::size_t ip = 10, port = 14, net = 18, sub_net = 19, status = 23, short_name = 26,
+                      long_name = 44, report = 108, ports = 172, port_types = 174, good_input = 178,
+                      good_output = 182, in = 186, out = 190, style = 200, mac = 201, bind_ip = 207,
+                      bind_index = 211, status2 = 212;
 }  // namespace at
 constexpr std::uint8_t kOutputPort = 0x80, kInputPort = 0x40, kDmxPort = 0x00;
 
