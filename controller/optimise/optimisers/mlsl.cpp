@@ -1,31 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "controller/optimise/optimisers/mlsl.h"
 
-#include "controller/optimise/nlopt_search.h"
+#include "controller/optimise/whole_box.h"
 
 namespace chiaro::optimise {
 namespace {
 
-constexpr double kStep = 0.12;
-
-/// Searches of the whole box, again with other random numbers when one has shrunk to a point.
 class Mlsl final : public Optimiser {
  public:
-  Outcome minimise(const Task& task) const override {
-    const Problem problem(task);
-    Ledger ledger(task);
-    Record record(problem);
-    if (problem.dimension() == 0) return only_point(problem, ledger, record);
-    Point from = best_start(problem, ledger, record);
-    for (std::uint64_t k = 0; record.left() > 0 && !record.stopped(); ++k) {
-      const Run run = nlopt_search(Search::mlsl, problem, ledger, record.left(), from, kStep,
-                                   task.seed + 0x9e3779b9u * k);
-      record.absorb(run, true);
-      from = spread_point(k, problem.dimension(), task.seed);
-      if (run.used() == 0) break;
-    }
-    return record.finish();
-  }
+  Outcome minimise(const Task& task) const override { return whole_box(task, Search::mlsl); }
 };
 
 }  // namespace
