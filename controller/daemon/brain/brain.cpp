@@ -145,6 +145,7 @@ void Brain::tick(ports::TimePoint now) {
   if (world_.reload.exchange(false)) perform(panel::Reload{}, [](const panel::Outcome&) {});
   if (now - last_renewal_ < kRenewal && !dirty_) return;
   last_renewal_ = now;
+  dirty_ = false;
   tell_progress();
   pace_cameras();
   renew_state();
@@ -193,7 +194,6 @@ void Brain::answer_waiting(ports::TimePoint now) {
                                 : waiting.motion       ? sent_->motion_stop.id
                                                        : sent_->blackout_id;
     if (heard >= waiting.id) {
-      renew_state();
       waiting.answer({{},
                       200,
                       waiting.motion ? fmt::format(R"({{"motion_stop":{}}})", sent_->motion_stop.on)

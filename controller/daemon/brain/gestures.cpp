@@ -16,7 +16,12 @@ constexpr ports::Duration kDarkPatience = std::chrono::seconds(2);
 }  // namespace
 
 void Brain::perform(const panel::Gesture& gesture, panel::Answer answer) {
-  std::visit([&](const auto& wish) { carry_out(wish, answer); }, gesture);
+  // Whoever was answered may ask at once: what the state then says must know of this gesture.
+  const panel::Answer told = [this, answer = std::move(answer)](const panel::Outcome& outcome) {
+    renew_state();
+    answer(outcome);
+  };
+  std::visit([&](const auto& wish) { carry_out(wish, told); }, gesture);
 }
 
 void Brain::carry_out(const panel::Reload&, const panel::Answer& answer) {

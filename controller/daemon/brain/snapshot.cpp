@@ -204,7 +204,6 @@ std::optional<panel::LookView> Brain::live_view(const studio::Rig& rig) const {
 }
 
 void Brain::renew_state() {
-  dirty_ = false;
   panel::State& s = state_;
   s.studio = studio_.name;
   s.file = studio_.file;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an operator does beside choosing moods: work light, nudges, names, meters, hands, and lamps
 // that nobody knows.
+#include <algorithm>
+
 #include "controller/daemon/brain/words.h"
 #include "tests/integration/brain/brain_test.h"
 
@@ -47,6 +49,22 @@ TEST_F(GesturesTest, ANudgeBrightensAndIsUndone) {
   EXPECT_EQ(brain_->state().look->nudges[0], (std::pair<std::string, double>{"brighter", 0.5}));
   EXPECT_FALSE(perform(panel::Undo{0}).refused);
   EXPECT_EQ(look(), first);
+}
+
+TEST_F(GesturesTest, WhoeverWasAnsweredFindsTheirPictureInTheState) {
+  open();
+  const auto has_it = [&] {
+    const auto& moods = brain_->state().moods;
+    return std::any_of(moods.begin(), moods.end(),
+                       [](const panel::MoodView& mood) { return mood.name == "our-window"; });
+  };
+  std::optional<bool> known;
+  const auto look_at_once = [&](const panel::Outcome&) { known = has_it(); };
+  brain_->perform(panel::AddMood{"our-window", "Our window", like_a_picture().picture},
+                  look_at_once);
+  EXPECT_EQ(known, true) << "the next question may come before the loop's next turn";
+  brain_->perform(panel::RemoveMood{"our-window"}, look_at_once);
+  EXPECT_EQ(known, false);
 }
 
 TEST_F(GesturesTest, ThereIsNothingToNudgeBeforeALook) {
@@ -155,8 +173,7 @@ TEST(HandWords, SayWhatAPersonDoes) {
   };
   EXPECT_EQ(words(core::Dof::intensity, HandKind::flash_power, 0.25), "set key to 1/4 power");
   EXPECT_EQ(words(core::Dof::intensity, HandKind::knob, 0.62), "turn key's level to 62 %");
-  EXPECT_EQ(words(core::Dof::cct, HandKind::gel, 3200),
-            "put ¾ CTO (Lee 285) on key, for 3200 K");
+  EXPECT_EQ(words(core::Dof::cct, HandKind::gel, 3200), "put ¾ CTO (Lee 285) on key, for 3200 K");
   EXPECT_EQ(words(core::Dof::cct, HandKind::gel, 5600), "take the gel off key");
   EXPECT_EQ(words(core::Dof::cct, HandKind::knob, 4300), "turn key's colour to 4300 K");
 }
