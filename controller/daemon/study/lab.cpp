@@ -24,8 +24,7 @@ core::Result<Stage> stage(std::string_view name, const Lamps& lamps, int threads
 }
 
 Lab::Lab(const Stage& stage, const design::Goal& goal, core::Size size, Levels levels)
-    : stage_(stage),
-      levels_(levels),
+    : levels_(levels),
       all_(design::variables_of(stage.studio, design::Options{})),
       lamps_(design::searched(stage.studio, all_, goal)),
       prepared_(prepared_for(stage, goal, all_, size)),

@@ -45,7 +45,6 @@ class Lab {
                              int threads, const std::atomic<bool>& stop);
 
  private:
-  const Stage& stage_;
   const Levels levels_;
   const design::Variables all_, lamps_;
   const design::Prepared prepared_;

@@ -137,7 +137,7 @@ TEST(Plan, CountsAHeadsAnglesAsItHangs) {
   const auto frames = encoded(studio, {state({{Dof::intensity, 1},
                                               {Dof::pan, core::radians(30)},
                                               {Dof::tilt, core::radians(10)}})});
-  const auto raw = [&](int slot) {
+  const auto raw = [&](std::size_t slot) {
     return 256 * frames[0].levels[slot] + frames[0].levels[slot + 1];
   };
   EXPECT_EQ(raw(0), 31554);  // (-10 + 270) / 540 * 65535 = 31553.9

@@ -78,15 +78,15 @@ TEST_F(MeshFile, SharpEdgesKeepTheirFacesFlat) {
 
 TEST_F(MeshFile, EveryCornerMayHaveANormalOfItsOwn) {
   // A crumpled sheet: far more different corners than points. It used to be read for ever.
-  constexpr int kSide = 24;
+  constexpr std::size_t kSide = 24;
   std::string points, faces;
-  int triangles = 0;
-  for (int y = 0; y < kSide; ++y)
-    for (int x = 0; x < kSide; ++x) {
+  std::size_t triangles = 0;
+  for (std::size_t y = 0; y < kSide; ++y)
+    for (std::size_t x = 0; x < kSide; ++x) {
       points += std::to_string(x) + " " + std::to_string(y) + " " +
                 std::to_string((x * 7 + y * 13) % 11 * 3) + "\n";
       if (x + 1 == kSide || y + 1 == kSide) continue;
-      const int a = y * kSide + x, b = a + 1, c = a + kSide, d = c + 1;
+      const std::size_t a = y * kSide + x, b = a + 1, c = a + kSide, d = c + 1;
       faces += "3 " + std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(d) +
                "\n3 " + std::to_string(a) + " " + std::to_string(d) + " " + std::to_string(c) +
                "\n";
