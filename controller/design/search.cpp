@@ -2,7 +2,10 @@
 #include "controller/design/search.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+
+#include "controller/optimise/search.h"
 
 namespace chiaro::design {
 namespace {
@@ -78,30 +81,45 @@ std::vector<Found> search(const Setting& coarse, const Options& options, Watch& 
   return basins;
 }
 
+namespace {
+
+/// One basin's neighbourhood, searched by one thread: several are searched at once.
+optimise::Outcome polished(const Setting& full, Workspaces& workspaces, const Found& basin,
+                           std::uint64_t trials, std::atomic<std::uint64_t>& tried,
+                           const Options& options, Watch& watch) {
+  optimise::Task task = task_for(full, workspaces, options, watch);
+  task.progress = [&](std::uint64_t, double best) { watch.report(++tried, best); };
+  task.bounds = near(task.bounds, basin.point);
+  task.starts = {basin.point};
+  task.threads = 1;
+  task.trials = trials;
+  // A time stop leaves the coarse answer: its neighbourhood was not looked at, its cost was.
+  if (trials == 1) task.stop = nullptr;
+  return minimise(task, options);
+}
+
+}  // namespace
+
 Found polish(const Setting& full, const std::vector<Found>& basins, const Options& options,
              Watch& watch) {
   Found best = basins.front();
   if (full.variables.moving.empty() || !std::isfinite(best.cost)) return best;
   std::size_t count = 1;
-  while (count < std::min(kPolished, basins.size()) &&
+  while (!watch.over() && count < std::min(kPolished, basins.size()) &&
          basins[count].cost <= kHardlyMore * best.cost)
     ++count;
-  const std::uint64_t trials = kPolishTrials * full.variables.moving.size();
+  const std::uint64_t trials = watch.over() ? 1 : kPolishTrials * full.variables.moving.size();
   watch.begin("polish", trials * count);
   Workspaces workspaces(full);
+  std::vector<optimise::Outcome> outcomes(count);
+  std::atomic<std::uint64_t> tried{0};
+  optimise::for_each_task(options.threads, count, [&](std::size_t i) {
+    outcomes[i] = polished(full, workspaces, basins[i], trials, tried, options, watch);
+  });
+  watch.end(tried);
   best.cost = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < count; ++i) {
-    // A time stop leaves the coarse answer: its neighbourhood was not looked at, its cost was.
-    optimise::Task task = task_for(full, workspaces, options, watch);
-    task.bounds = near(task.bounds, basins[i].point);
-    task.starts = {basins[i].point};
-    task.trials = watch.over() ? 1 : trials;
-    if (watch.over() && i > 0) break;
-    task.stop = i == 0 && watch.over() ? nullptr : task.stop;
-    const optimise::Outcome outcome = minimise(task, options);
-    watch.end(outcome.trials);
+  for (const optimise::Outcome& outcome : outcomes)
     if (outcome.value < best.cost) best = {outcome.best, outcome.value};
-  }
   return best;
 }
 

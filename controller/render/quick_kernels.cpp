@@ -3,8 +3,8 @@
 // face's extent changes by its moments. The irradiance is an expansion to the fourth order of
 // h (n.v) / |v|^4 over the face, cut at the horizon as an evenly spread face would be. The
 // highlight is the lobe at the middle times the mean of exp over the face, to the fourth order in
-// the cumulants of its logarithm. At 256 x 256 a layer takes about a third of the closed forms'
-// time.
+// the cumulants of its logarithm. At 256 x 256 a rectangle's layer takes 130 us where the
+// closed forms take 320, a disk's 112 where they take 250.
 #include <algorithm>
 #include <cmath>
 

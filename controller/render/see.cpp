@@ -64,6 +64,18 @@ void store(core::GBuffer& b, std::size_t i, const Surface& s, const Pinhole& cam
   b.object[i] = static_cast<std::uint16_t>(hit.mesh + 1);
 }
 
+/// In the studio, whether it has moved or not.
+Surface surface_of(const Tracer& tracer, const Tracer::Hit& hit, Vec3 direction) {
+  const twin::Geometry& geometry = tracer.geometry();
+  if (!geometry.meshes[hit.mesh].subject) return surface_at(geometry, hit, direction);
+  const Motion& motion = tracer.motion();
+  Surface out = surface_at(geometry, hit, motion.turned_back(direction));
+  out.position = motion.point(out.position);
+  out.normal = motion.direction(out.normal);
+  out.face = motion.direction(out.face);
+  return out;
+}
+
 }  // namespace
 
 View see(std::shared_ptr<const Tracer> tracer, const studio::Camera& camera, core::Size size) {
@@ -98,8 +110,8 @@ View see(std::shared_ptr<const Tracer> tracer, const studio::Camera& camera, cor
       if (!hits[pixel].hit) continue;
       const Vec3 direction = pin.direction(x, y);
       view.buffer.pixel[i] = static_cast<std::uint32_t>(pixel);
-      store(view.buffer, i++, surface_at(tracer->geometry(), hits[pixel], direction), pin,
-            direction, hits[pixel]);
+      store(view.buffer, i++, surface_of(*tracer, hits[pixel], direction), pin, direction,
+            hits[pixel]);
     }
   });
   view.tracer = std::move(tracer);

@@ -15,6 +15,17 @@ namespace chiaro::render {
 
 class Samples;
 
+/// How a subject has moved as a whole since its geometry was built: turned about the origin, then
+/// shifted. The axes are where x, y and z have been turned to, unit and perpendicular.
+struct Motion {
+  core::Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, by{};
+  core::Vec3 direction(core::Vec3 v) const { return v.x * x + v.y * y + v.z * z; }
+  core::Vec3 point(core::Vec3 p) const { return direction(p) + by; }
+  core::Vec3 turned_back(core::Vec3 v) const { return {dot(v, x), dot(v, y), dot(v, z)}; }
+};
+/// Turned by `turn` radians about the upright through `about`, then shifted.
+Motion turned_and_moved(core::Vec3 about, double turn, core::Vec3 by);
+
 /// Embree's scene over a Geometry. Thread-safe once built. Owns nothing of the geometry but a
 /// shared reference.
 class Tracer {
@@ -33,12 +44,32 @@ class Tracer {
   /// Up to 16 rays from one point in much the same direction, at once. Precondition: count 1..16.
   void closest16(core::Vec3 from, const core::Vec3* directions, std::size_t count, Hit* hits) const;
   bool blocked(core::Vec3 from, core::Vec3 to) const;
+  /// As it was built; what belongs to a subject has moved by motion() since.
   const twin::Geometry& geometry() const;
+  const Motion& motion() const;
   void* embree_scene() const;  ///< RTCScene, for kernels inside `render` and the simulator
 
  private:
+  friend class MovingTracer;
   struct State;
+  explicit Tracer(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
+};
+
+/// Tracers of one geometry whose subjects move: trees are built once, a frame only places them.
+class MovingTracer {
+ public:
+  explicit MovingTracer(std::shared_ptr<const twin::Geometry> geometry);
+  ~MovingTracer();
+  MovingTracer(const MovingTracer&) = delete;
+  MovingTracer& operator=(const MovingTracer&) = delete;
+  /// With every subject moved by `motion`. Outlives this. Thread-safe.
+  std::shared_ptr<const Tracer> at(const Motion& motion) const;
+
+  struct Trees;
+
+ private:
+  std::shared_ptr<const Trees> trees_;
 };
 
 /// One surface sample per pixel of `camera` at `size` (the camera's aspect is kept by its vertical

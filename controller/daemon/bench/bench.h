@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 
 #include "controller/core/result.h"
 #include "controller/daemon/bench/report.h"
@@ -30,8 +31,22 @@ core::Result<core::Done> trials(const Plan& plan, ports::World& world, Report& r
 core::Result<core::Done> levels(const Plan& plan, ports::World& world, Report& report);
 /// Whole designs, cold and warm, on the studio's subject and on one of a million triangles.
 core::Result<core::Done> designs(const Plan& plan, ports::World& world, Report& report);
+/// A subject that moves: how long a frame takes to follow.
+core::Result<core::Done> moving(const Plan& plan, ports::World& world, Report& report);
+/// Time and memory against triangles, pixels, lamps and threads.
+core::Result<core::Done> scaling(const Plan& plan, ports::World& world, Report& report);
 /// Time to the quality that reference annealing reaches, and what each idea contributes.
 core::Result<core::Done> quality(const Plan& plan, ports::World& world, Report& report);
+
+/// The studio with a bumpy ball of at least that many triangles for a subject, written as binary
+/// PLY into `folder`.
+studio::Studio with_subject_of(const studio::Studio& studio, std::size_t triangles,
+                               const std::filesystem::path& folder);
+/// Its lamps all points.
+studio::Studio with_points(studio::Studio studio);
+
+/// Of this process so far.
+double peak_megabytes();
 
 /// Bytes per second that one core reads from a working set of that size.
 double read_bandwidth(const ports::Clock& clock, std::size_t bytes, bool quick);

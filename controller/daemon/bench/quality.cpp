@@ -178,7 +178,7 @@ core::Result<core::Done> quality(const Plan& plan, ports::World& world, Report& 
       {"+ visibility cached, layers kept", true, false, "annealing", plan.size, 1},
       {"+ levels solved inside", true, true, "annealing", plan.size, 1},
       {"+ multi-start SBPLX", true, true, "sbplx", plan.size, 1},
-      {"+ search on small pictures", true, true, "sbplx", small, 1},
+      {"+ search on small pictures: the product, thread for thread", true, true, "sbplx", small, 1},
       {"+ two threads: what the product does", true, true, "sbplx", small, 2},
       {"the product without the cache", false, true, "sbplx", small, 2},
       {"the product without solving levels", true, false, "sbplx", small, 2},

@@ -15,7 +15,8 @@ constexpr std::size_t kLights = 3;
 /// Bytes that a trial must touch per pixel: 12 surface numbers and 8 grid neighbours' visibility
 /// for the layer, twice 4 written (layer, shadow), 4 layers read and a picture written, and
 /// picture, shadow and pixel type read by the measures.
-constexpr double kTrialBytes = 12 * 4 + 8 + 2 * 4 + 5 * 4 + 2 * 4 + 1;
+constexpr double kLayerBytes = 12 * 4 + 8 + 2 * 4;
+constexpr double kTrialBytes = kLayerBytes + 5 * 4 + 2 * 4 + 1;
 
 /// The first lamps of the studio that a design may light, the one that can be moved first.
 std::vector<std::size_t> chosen_lights(const studio::Studio& studio) {
@@ -164,10 +165,16 @@ core::Result<core::Done> trials(const Plan& plan, ports::World& world, Report& r
     const auto timed = time_trials(plan, with_optic(plan.studio, optic), world);
     if (!timed) return timed.problems();
     const std::string lamp = name;
-    char note[64];
-    std::snprintf(note, sizeof note, "roof %.0f us, %.1f x", roof_us, timed->trial_us / roof_us);
-    report.add("layer, cached visibility, " + lamp, timed->layer_us, "us");
-    report.add("trial, " + lamp, timed->trial_us, "us", at_most(200), note);
+    const auto reached = [](double roof, double time) {
+      char note[64];
+      std::snprintf(note, sizeof note, "roof %.0f us, %.0f %% of it reached", roof,
+                    time > 0 ? 100 * roof / time : 0);
+      return std::string(note);
+    };
+    report.add("layer, cached visibility, " + lamp, timed->layer_us, "us", {},
+               reached(roof_us * kLayerBytes / kTrialBytes, timed->layer_us));
+    report.add("trial, " + lamp, timed->trial_us, "us", at_most(200),
+               reached(roof_us, timed->trial_us));
     report.add("layer, traced, " + lamp, timed->traced_layer_us, "us");
     report.add("reference trial, " + lamp, timed->reference_us, "us");
     report.add("reference : fast, " + lamp,

@@ -67,6 +67,8 @@ constexpr NamedPart kParts[] = {
     {"trials", bench::trials},
     {"levels", bench::levels},
     {"designs", bench::designs},
+    {"moving", bench::moving},
+    {"scaling", bench::scaling},
     {"quality", bench::quality}};
 
 ports::Exit run(const Wish& wish, ports::World& world, bool json) {
@@ -96,7 +98,8 @@ void declare_bench(CLI::App& app, ports::World& world, Verdict& verdict) {
   verb->add_option("--other-mood", wish->other, "the new mood of the warm design")
       ->capture_default_str();
   verb->add_option("--only", wish->only, "one part alone")
-      ->check(CLI::IsMember({"kernels", "trials", "levels", "designs", "quality"}));
+      ->check(CLI::IsMember(
+          {"kernels", "trials", "levels", "designs", "moving", "scaling", "quality"}));
   verb->add_option("--seeds", wish->seeds, "for the medians of the quality part; 10 if not given")
       ->check(CLI::Range(1, 1000));
   verb->add_option("--trials", wish->trials, "of the reference's annealing; 1000 if not given")
