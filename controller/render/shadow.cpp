@@ -47,14 +47,10 @@ struct Packet {
 class Shadow {
  public:
   Shadow(const View& view, const twin::Light& light)
-      : scene_(static_cast<RTCScene>(view.tracer->embree_scene())),
+      : tracer_(*view.tracer),
         light_(light),
         model_(twin::light_model(light.kind)),
-        axis_(triple(light.direction)),
-        placed_(rtcGetGeometryUserData(rtcGetGeometry(scene_, 0)) != nullptr) {
-    rtcInitIntersectContext(&context_);
-    context_.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  }
+        axis_(triple(light.direction)) {}
 
   void fractions(const Packet& p, Strata strata, float* out) {
     std::array<int, kPacket> wanted{};
@@ -147,33 +143,14 @@ class Shadow {
   void trace(const std::array<int, kPacket>& valid) {
     const auto wanted = std::count(valid.begin(), valid.end(), -1);
     if (wanted == 0) return;
-    if (placed_)
-      trace_each(valid);
-    else
-      rtcOccluded16(valid.data(), scene_, &context_, &ray_);
+    tracer_.blocked16(valid.data(), ray_);
     rays += static_cast<std::uint64_t>(wanted);
   }
 
-  /// A scene of placed meshes: see tracer.cpp.
-  void trace_each(const std::array<int, kPacket>& valid) {
-    for (std::size_t k = 0; k < kPacket; ++k) {
-      if (!valid[k]) continue;
-      RTCRay one{};
-      one.org_x = ray_.org_x[k], one.org_y = ray_.org_y[k], one.org_z = ray_.org_z[k];
-      one.dir_x = ray_.dir_x[k], one.dir_y = ray_.dir_y[k], one.dir_z = ray_.dir_z[k];
-      one.tfar = ray_.tfar[k];
-      one.mask = ray_.mask[k];
-      rtcOccluded1(scene_, &context_, &one);
-      ray_.tfar[k] = one.tfar;
-    }
-  }
-
-  RTCScene scene_;
+  const Tracer& tracer_;
   const twin::Light& light_;
   const twin::LightModel& model_;
   Triple axis_;
-  bool placed_;
-  RTCIntersectContext context_;
   alignas(64) RTCRay16 ray_;
 };
 

@@ -1,34 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <embree3/rtcore.h>
 #include <stdexcept>
-#include <vector>
 
 #include "controller/render/view.h"
 
 namespace chiaro::render {
 
-/// One tree per mesh, shared by the scenes that place them.
-struct MovingTracer::Trees {
+struct Tracer::Trees {
   std::shared_ptr<const twin::Geometry> geometry;
   RTCDevice device = nullptr;
-  std::vector<RTCScene> meshes;
+  RTCScene still = nullptr;   ///< what never moves: everything, in a plain tracer
+  RTCScene moving = nullptr;  ///< subjects where they stood at first; null in a plain tracer
   ~Trees() {
-    for (const RTCScene mesh : meshes) rtcReleaseScene(mesh);
-    if (device != nullptr) rtcReleaseDevice(device);
-  }
-};
-
-struct Tracer::State {
-  std::shared_ptr<const twin::Geometry> geometry;
-  std::shared_ptr<const MovingTracer::Trees> trees;  ///< null where nothing moves
-  Motion motion;
-  RTCDevice device = nullptr;
-  RTCScene scene = nullptr;
-  ~State() {
-    if (scene != nullptr) rtcReleaseScene(scene);
+    for (const RTCScene scene : {still, moving})
+      if (scene != nullptr) rtcReleaseScene(scene);
     if (device != nullptr) rtcReleaseDevice(device);
   }
 };
@@ -68,28 +55,77 @@ void require_built(RTCDevice device) {
     throw std::runtime_error("Embree cannot build its tree: is there memory enough?");
 }
 
-void place(RTCDevice device, RTCScene scene, RTCScene mesh, const Motion& motion, unsigned id) {
-  RTCGeometry instance = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
-  rtcSetGeometryInstancedScene(instance, mesh);
-  std::array<float, 12> columns;
-  const core::Vec3 each[] = {motion.x, motion.y, motion.z, motion.by};
-  for (std::size_t c = 0; c < 4; ++c) {
-    columns[3 * c] = static_cast<float>(each[c].x);
-    columns[3 * c + 1] = static_cast<float>(each[c].y);
-    columns[3 * c + 2] = static_cast<float>(each[c].z);
-  }
-  rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns.data());
-  // A mark for shadow.cpp: whoever traces placed meshes must do it ray by ray. Embree 3.13
-  // sometimes never comes back from a packet that meets instances.
-  rtcSetGeometryUserData(instance, mesh);
-  rtcCommitGeometry(instance);
-  rtcAttachGeometryByID(scene, instance, id);
-  rtcReleaseGeometry(instance);
+constexpr std::size_t kPacket = 16;
+
+template <class Ray>
+void set_ray(Ray& ray, core::Vec3 from, core::Vec3 direction, double most) {
+  ray.org_x = static_cast<float>(from.x);
+  ray.org_y = static_cast<float>(from.y);
+  ray.org_z = static_cast<float>(from.z);
+  ray.dir_x = static_cast<float>(direction.x);
+  ray.dir_y = static_cast<float>(direction.y);
+  ray.dir_z = static_cast<float>(direction.z);
+  ray.tnear = 0;
+  ray.tfar = static_cast<float>(most);
+  ray.mask = 0xffffffffu;
 }
 
-/// In a scene of placed meshes the instance is the mesh, in a plain one the geometry is.
-std::uint32_t mesh_of(unsigned instance, unsigned geometry) {
-  return instance != RTC_INVALID_GEOMETRY_ID ? instance : geometry;
+/// Up to 16 rays from one point that have hit nothing yet.
+void set_packet(RTCRayHit16& rays, core::Vec3 from, const core::Vec3* directions,
+                std::size_t count) {
+  for (std::size_t k = 0; k < kPacket; ++k) {
+    const core::Vec3 d = directions[std::min(k, count - 1)];
+    rays.ray.org_x[k] = static_cast<float>(from.x);
+    rays.ray.org_y[k] = static_cast<float>(from.y);
+    rays.ray.org_z[k] = static_cast<float>(from.z);
+    rays.ray.dir_x[k] = static_cast<float>(d.x);
+    rays.ray.dir_y[k] = static_cast<float>(d.y);
+    rays.ray.dir_z[k] = static_cast<float>(d.z);
+    rays.ray.tnear[k] = 0, rays.ray.tfar[k] = 1e30f, rays.ray.time[k] = 0;
+    rays.ray.mask[k] = 0xffffffffu, rays.ray.id[k] = 0, rays.ray.flags[k] = 0;
+    rays.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+    rays.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
+  }
+}
+
+RTCIntersectContext coherent() {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  return context;
+}
+
+/// The rays as a subject sees them that has not moved. Lengths stay what they are.
+void turn_back(const Motion& motion, const RTCRay16& rays, RTCRay16& out) {
+  const auto f = [](double v) { return static_cast<float>(v); };
+  const float xx = f(motion.x.x), xy = f(motion.x.y), xz = f(motion.x.z);
+  const float yx = f(motion.y.x), yy = f(motion.y.y), yz = f(motion.y.z);
+  const float zx = f(motion.z.x), zy = f(motion.z.y), zz = f(motion.z.z);
+  const float bx = f(motion.by.x), by = f(motion.by.y), bz = f(motion.by.z);
+  for (std::size_t k = 0; k < kPacket; ++k) {
+    const float ox = rays.org_x[k] - bx, oy = rays.org_y[k] - by, oz = rays.org_z[k] - bz;
+    out.org_x[k] = ox * xx + oy * xy + oz * xz;
+    out.org_y[k] = ox * yx + oy * yy + oz * yz;
+    out.org_z[k] = ox * zx + oy * zy + oz * zz;
+    const float dx = rays.dir_x[k], dy = rays.dir_y[k], dz = rays.dir_z[k];
+    out.dir_x[k] = dx * xx + dy * xy + dz * xz;
+    out.dir_y[k] = dx * yx + dy * yy + dz * yz;
+    out.dir_z[k] = dx * zx + dy * zy + dz * zz;
+    out.tnear[k] = rays.tnear[k], out.tfar[k] = rays.tfar[k], out.time[k] = 0;
+    out.mask[k] = rays.mask[k], out.id[k] = 0, out.flags[k] = 0;
+  }
+}
+
+void take_hits(const RTCRayHit16& rays, std::size_t count, Tracer::Hit* hits) {
+  for (std::size_t k = 0; k < count; ++k)
+    if (rays.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID)
+      hits[k] = {true,          rays.ray.tfar[k],   rays.hit.u[k],
+                 rays.hit.v[k], rays.hit.geomID[k], rays.hit.primID[k]};
+}
+
+void take_hit(const RTCRayHit& ray, Tracer::Hit& hit) {
+  if (ray.hit.geomID != RTC_INVALID_GEOMETRY_ID)
+    hit = {true, ray.ray.tfar, ray.hit.u, ray.hit.v, ray.hit.geomID, ray.hit.primID};
 }
 
 }  // namespace
@@ -103,126 +139,105 @@ Motion turned_and_moved(core::Vec3 about, double turn, core::Vec3 by) {
   return out;
 }
 
-Tracer::Tracer(std::shared_ptr<const twin::Geometry> geometry) : state_(std::make_unique<State>()) {
-  state_->geometry = std::move(geometry);
-  state_->device = new_device();
-  state_->scene = new_scene(state_->device);
-  for (std::size_t i = 0; i < state_->geometry->meshes.size(); ++i)
-    attach(state_->device, state_->scene, state_->geometry->meshes[i], static_cast<unsigned>(i));
-  rtcCommitScene(state_->scene);
-  require_built(state_->device);
-}
-
-Tracer::Tracer(std::unique_ptr<State> state) : state_(std::move(state)) {}
-
-MovingTracer::MovingTracer(std::shared_ptr<const twin::Geometry> geometry) {
+std::shared_ptr<const Tracer::Trees> Tracer::trees_of(
+    std::shared_ptr<const twin::Geometry> geometry, bool subjects_move) {
   auto trees = std::make_shared<Trees>();
   trees->geometry = std::move(geometry);
   trees->device = new_device();
-  for (const twin::Mesh& mesh : trees->geometry->meshes) {
-    trees->meshes.push_back(new_scene(trees->device));
-    attach(trees->device, trees->meshes.back(), mesh, 0);
-    rtcCommitScene(trees->meshes.back());
+  trees->still = new_scene(trees->device);
+  if (subjects_move) trees->moving = new_scene(trees->device);
+  for (std::size_t i = 0; i < trees->geometry->meshes.size(); ++i) {
+    const twin::Mesh& mesh = trees->geometry->meshes[i];
+    attach(trees->device, mesh.subject && subjects_move ? trees->moving : trees->still, mesh,
+           static_cast<unsigned>(i));
   }
+  for (const RTCScene scene : {trees->still, trees->moving})
+    if (scene != nullptr) rtcCommitScene(scene);
   require_built(trees->device);
-  trees_ = std::move(trees);
+  return trees;
 }
 
-MovingTracer::~MovingTracer() = default;
-
-std::shared_ptr<const Tracer> MovingTracer::at(const Motion& motion) const {
-  auto state = std::make_unique<Tracer::State>();
-  state->geometry = trees_->geometry;
-  state->trees = trees_;
-  state->motion = motion;
-  state->scene = new_scene(trees_->device);
-  for (std::size_t i = 0; i < trees_->meshes.size(); ++i)
-    place(trees_->device, state->scene, trees_->meshes[i],
-          trees_->geometry->meshes[i].subject ? motion : Motion{}, static_cast<unsigned>(i));
-  rtcCommitScene(state->scene);
-  require_built(trees_->device);
-  return std::shared_ptr<const Tracer>(new Tracer(std::move(state)));
-}
-
+Tracer::Tracer(std::shared_ptr<const twin::Geometry> geometry)
+    : trees_(trees_of(std::move(geometry), false)) {}
+Tracer::Tracer(std::shared_ptr<const Trees> trees, const Motion& motion)
+    : trees_(std::move(trees)), motion_(motion) {}
 Tracer::~Tracer() = default;
 
+MovingTracer::MovingTracer(std::shared_ptr<const twin::Geometry> geometry)
+    : trees_(Tracer::trees_of(std::move(geometry), true)) {}
+
+std::shared_ptr<const Tracer> MovingTracer::at(const Motion& motion) const {
+  return std::shared_ptr<const Tracer>(new Tracer(trees_, motion));
+}
+
 Tracer::Hit Tracer::closest(core::Vec3 from, core::Vec3 direction, double most) const {
+  Hit hit;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRayHit ray{};
-  ray.ray.org_x = static_cast<float>(from.x);
-  ray.ray.org_y = static_cast<float>(from.y);
-  ray.ray.org_z = static_cast<float>(from.z);
-  ray.ray.dir_x = static_cast<float>(direction.x);
-  ray.ray.dir_y = static_cast<float>(direction.y);
-  ray.ray.dir_z = static_cast<float>(direction.z);
-  ray.ray.tfar = static_cast<float>(most);
-  ray.ray.mask = 0xffffffffu;
+  set_ray(ray.ray, from, direction, most);
   ray.hit.geomID = ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(state_->scene, &context, &ray);
-  if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-  return {
-      true,          ray.ray.tfar, ray.hit.u, ray.hit.v, mesh_of(ray.hit.instID[0], ray.hit.geomID),
-      ray.hit.primID};
+  rtcIntersect1(trees_->still, &context, &ray);
+  take_hit(ray, hit);
+  if (trees_->moving == nullptr) return hit;
+  RTCRayHit back{};
+  set_ray(back.ray, motion_.turned_back(from - motion_.by), motion_.turned_back(direction),
+          hit.hit ? hit.distance : most);
+  back.hit.geomID = back.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(trees_->moving, &context, &back);
+  take_hit(back, hit);
+  return hit;
 }
 
 void Tracer::closest16(core::Vec3 from, const core::Vec3* directions, std::size_t count,
                        Hit* hits) const {
-  if (state_->trees != nullptr) {  // placed meshes: ray by ray, see place()
-    for (std::size_t k = 0; k < count; ++k) hits[k] = closest(from, directions[k]);
-    return;
-  }
-  constexpr std::size_t kPacket = 16;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  RTCIntersectContext context = coherent();
   alignas(64) int valid[kPacket];
+  for (std::size_t k = 0; k < kPacket; ++k) valid[k] = k < count ? -1 : 0;
   alignas(64) RTCRayHit16 rays;
-  for (std::size_t k = 0; k < kPacket; ++k) {
-    const core::Vec3 d = directions[std::min(k, count - 1)];
-    valid[k] = k < count ? -1 : 0;
-    rays.ray.org_x[k] = static_cast<float>(from.x);
-    rays.ray.org_y[k] = static_cast<float>(from.y);
-    rays.ray.org_z[k] = static_cast<float>(from.z);
-    rays.ray.dir_x[k] = static_cast<float>(d.x);
-    rays.ray.dir_y[k] = static_cast<float>(d.y);
-    rays.ray.dir_z[k] = static_cast<float>(d.z);
-    rays.ray.tnear[k] = 0, rays.ray.tfar[k] = 1e30f, rays.ray.time[k] = 0;
-    rays.ray.mask[k] = 0xffffffffu, rays.ray.id[k] = 0, rays.ray.flags[k] = 0;
-    rays.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
-    rays.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
-  }
-  rtcIntersect16(valid, state_->scene, &context, &rays);
-  for (std::size_t k = 0; k < count; ++k)
-    hits[k] = rays.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID
-                  ? Hit{}
-                  : Hit{true,
-                        rays.ray.tfar[k],
-                        rays.hit.u[k],
-                        rays.hit.v[k],
-                        mesh_of(rays.hit.instID[0][k], rays.hit.geomID[k]),
-                        rays.hit.primID[k]};
+  set_packet(rays, from, directions, count);
+  rtcIntersect16(valid, trees_->still, &context, &rays);
+  std::fill_n(hits, count, Hit{});
+  take_hits(rays, count, hits);
+  if (trees_->moving == nullptr) return;
+  alignas(64) RTCRayHit16 back = rays;
+  turn_back(motion_, rays.ray, back.ray);
+  for (unsigned& id : back.hit.geomID) id = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect16(valid, trees_->moving, &context, &back);
+  take_hits(back, count, hits);
 }
 
 bool Tracer::blocked(core::Vec3 from, core::Vec3 to) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRay ray{};
-  const core::Vec3 along = to - from;
-  ray.org_x = static_cast<float>(from.x);
-  ray.org_y = static_cast<float>(from.y);
-  ray.org_z = static_cast<float>(from.z);
-  ray.dir_x = static_cast<float>(along.x);
-  ray.dir_y = static_cast<float>(along.y);
-  ray.dir_z = static_cast<float>(along.z);
-  ray.tfar = 1;
-  ray.mask = 0xffffffffu;
-  rtcOccluded1(state_->scene, &context, &ray);
-  return ray.tfar < 0;
+  set_ray(ray, from, to - from, 1);
+  rtcOccluded1(trees_->still, &context, &ray);
+  if (ray.tfar < 0 || trees_->moving == nullptr) return ray.tfar < 0;
+  RTCRay back{};
+  set_ray(back, motion_.turned_back(from - motion_.by), motion_.turned_back(to - from), 1);
+  rtcOccluded1(trees_->moving, &context, &back);
+  return back.tfar < 0;
 }
 
-const twin::Geometry& Tracer::geometry() const { return *state_->geometry; }
-const Motion& Tracer::motion() const { return state_->motion; }
-void* Tracer::embree_scene() const { return state_->scene; }
+void Tracer::blocked16(const int* valid, RTCRay16& rays) const {
+  RTCIntersectContext context = coherent();
+  rtcOccluded16(valid, trees_->still, &context, &rays);
+  if (trees_->moving == nullptr) return;
+  alignas(64) int left[kPacket];
+  bool any = false;
+  for (std::size_t k = 0; k < kPacket; ++k) {
+    left[k] = valid[k] != 0 && !(rays.tfar[k] < 0) ? -1 : 0;
+    any = any || left[k] != 0;
+  }
+  if (!any) return;
+  alignas(64) RTCRay16 back;
+  turn_back(motion_, rays, back);
+  rtcOccluded16(left, trees_->moving, &context, &back);
+  for (std::size_t k = 0; k < kPacket; ++k)
+    if (left[k] != 0) rays.tfar[k] = back.tfar[k];
+}
+
+const twin::Geometry& Tracer::geometry() const { return *trees_->geometry; }
 
 }  // namespace chiaro::render

@@ -11,6 +11,8 @@
 #include "controller/core/result.h"
 #include "controller/twin/scene.h"
 
+struct RTCRay16;  // Embree's
+
 namespace chiaro::render {
 
 class Samples;
@@ -26,7 +28,7 @@ struct Motion {
 /// Turned by `turn` radians about the upright through `about`, then shifted.
 Motion turned_and_moved(core::Vec3 about, double turn, core::Vec3 by);
 
-/// Embree's scene over a Geometry. Thread-safe once built. Owns nothing of the geometry but a
+/// Embree's trees over a Geometry. Thread-safe once built. Owns nothing of the geometry but a
 /// shared reference.
 class Tracer {
  public:
@@ -44,32 +46,34 @@ class Tracer {
   /// Up to 16 rays from one point in much the same direction, at once. Precondition: count 1..16.
   void closest16(core::Vec3 from, const core::Vec3* directions, std::size_t count, Hit* hits) const;
   bool blocked(core::Vec3 from, core::Vec3 to) const;
+  /// Sixteen rays in Embree's layout, for kernels inside `render`: tfar becomes negative where
+  /// `valid` is -1 and the way is blocked. Both aligned to 64 bytes.
+  void blocked16(const int* valid, RTCRay16& rays) const;
   /// As it was built; what belongs to a subject has moved by motion() since.
   const twin::Geometry& geometry() const;
-  const Motion& motion() const;
-  void* embree_scene() const;  ///< RTCScene, for kernels inside `render` and the simulator
+  const Motion& motion() const { return motion_; }
 
  private:
   friend class MovingTracer;
-  struct State;
-  explicit Tracer(std::unique_ptr<State> state);
-  std::unique_ptr<State> state_;
+  struct Trees;
+  static std::shared_ptr<const Trees> trees_of(std::shared_ptr<const twin::Geometry> geometry,
+                                               bool subjects_move);
+  Tracer(std::shared_ptr<const Trees> trees, const Motion& motion);
+  std::shared_ptr<const Trees> trees_;
+  Motion motion_;
 };
 
-/// Tracers of one geometry whose subjects move: trees are built once, a frame only places them.
+/// Tracers of one geometry whose subjects move. Trees are built once: subjects have one of their
+/// own, and a ray is turned back to where they stood. (Embree's instances would do it too, but
+/// release 3.13 sometimes never comes back from a packet that meets one.)
 class MovingTracer {
  public:
   explicit MovingTracer(std::shared_ptr<const twin::Geometry> geometry);
-  ~MovingTracer();
-  MovingTracer(const MovingTracer&) = delete;
-  MovingTracer& operator=(const MovingTracer&) = delete;
   /// With every subject moved by `motion`. Outlives this. Thread-safe.
   std::shared_ptr<const Tracer> at(const Motion& motion) const;
 
-  struct Trees;
-
  private:
-  std::shared_ptr<const Trees> trees_;
+  std::shared_ptr<const Tracer::Trees> trees_;
 };
 
 /// One surface sample per pixel of `camera` at `size` (the camera's aspect is kept by its vertical
