@@ -80,7 +80,7 @@ void stand(const Variables& variables, std::size_t fixture, double azimuth, doub
   }
 }
 
-/// A lamp along each direction, as far as its region goes.
+/// A lamp along each direction that surfaces face [I-10], as far as its region goes.
 optimise::Point along(const Setting& setting, const optimise::Point& placed, bool curved) {
   optimise::Point point = placed;
   const core::GeometryPlanes* planes = setting.layers.geometry();
