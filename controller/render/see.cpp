@@ -11,8 +11,8 @@
 #include "controller/render/view.h"
 #include "controller/render/work.h"
 
-// One ray a pixel says which object and face it sees: in place of colour codes [I-6] and of a search
-// of the picture for every polygon [I-7].
+// One ray a pixel says which object and face it sees: in place of colour codes [I-6] and of a
+// search of the picture for every polygon [I-7].
 namespace chiaro::render {
 namespace {
 
