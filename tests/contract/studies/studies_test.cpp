@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is true of every line of studies.def: at its smallest it runs to the end, finds something,
-// writes what it promises, and finds the same again with the same seed.
+// What is true of every line of studies.def: at its smallest it runs to the end, finds something
+// and writes what it promises.
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -12,6 +12,9 @@
 #include "tests/support/fake_world.h"
 
 namespace chiaro::daemon::study {
+
+void PrintTo(const Study& study, std::ostream* out) { *out << study.name; }
+
 namespace {
 
 std::string content(const std::filesystem::path& file) {
