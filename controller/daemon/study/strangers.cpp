@@ -25,10 +25,10 @@ struct Known {
 // Cyberware, in metres, made OBJ by tests/support/quad_mesh.awk.
 const std::array<Known, 12> kKnown{{{"scopia/mannequinMale/mannequinMale.obj", 1.78, 0},
                                     {"scopia/mannequinBrunette/mannequinBrunette.obj", 1.70, 0},
-                                    {"reallusion/male01/male01.obj", 1.78, 0},
+                                    {"reallusion/male01/male01.obj", 1.78, 38},
                                     {"reallusion/male02/male02.obj", 1.78, 38},
                                     {"reallusion/male03/male03.obj", 1.78, 0},
-                                    {"reallusion/female01/female01.obj", 1.68, -95},
+                                    {"reallusion/female01/female01.obj", 1.68, -72},
                                     {"reallusion/female02/female02.obj", 1.68, 0},
                                     {"reallusion/female03/female03.obj", 1.68, 0},
                                     {"reallusion/girlStanding/girlStanding.obj", 1.40, 0},

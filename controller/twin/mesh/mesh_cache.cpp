@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t kMagic = 0x3148534d4f494843ULL;  // "CHIOMSH1"
 /// Raise it whenever preparing changes what it makes.
-constexpr std::uint64_t kVersion = 1;
+constexpr std::uint64_t kVersion = 2;
 
 std::optional<std::vector<std::uint8_t>> bytes_of(const std::filesystem::path& file) {
   std::error_code code;

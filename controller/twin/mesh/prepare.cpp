@@ -77,7 +77,9 @@ Vec3 area_vector(const Shape& shape, std::size_t t) {
   return cross(b - a, c - a);
 }
 
-/// Removes triangles without area and later copies of a triangle (same points, same turn).
+/// Removes triangles without area and later copies of a triangle: same points, in the same turn or
+/// the other. Surfaces have two sides here; a file that stores each of them would have its subject
+/// stand in its own shadow, triangle by triangle.
 void drop_useless(RawMesh& raw, Shape& shape) {
   const std::size_t triangles = raw.triangles();
   Welder<3> seen(triangles);
@@ -88,7 +90,7 @@ void drop_useless(RawMesh& raw, Shape& shape) {
     if (!(size > 1e-30)) continue;
     std::array<std::uint32_t, 3> c{shape.corners[3 * t], shape.corners[3 * t + 1],
                                    shape.corners[3 * t + 2]};
-    std::rotate(c.begin(), std::min_element(c.begin(), c.end()), c.end());
+    std::sort(c.begin(), c.end());
     // Point numbers as floats keep their order and identity below 2^24; above, as their bits.
     const auto key = [](std::uint32_t i) { return std::bit_cast<float>(i | 0x01000000u); };
     if (shape.points.size() < (1u << 24u)) {

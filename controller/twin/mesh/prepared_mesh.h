@@ -26,8 +26,9 @@ struct PreparedMesh {
   std::vector<std::string> warnings;
 };
 
-/// Welds equal vertices, drops triangles without area and duplicates of triangles, makes smooth
-/// normals (crease-aware, angle-weighted) where the file has none. May come out empty.
+/// Welds equal vertices, drops triangles without area and duplicates of triangles (also those that
+/// are a surface's other side), makes smooth normals (crease-aware, angle-weighted) where the file
+/// has none. May come out empty.
 PreparedMesh prepared(RawMesh raw);
 
 /// Reads, prepares and remembers. The cache's key is the content of the mesh file; an entry also

@@ -114,6 +114,15 @@ TEST_F(MeshFile, DuplicatePointsAreWeldedAndUselessTrianglesDropped) {
   EXPECT_EQ(mesh->positions.size(), 12u);
 }
 
+TEST_F(MeshFile, OfASurfaceStoredOncePerSideOneSideIsKept) {
+  // Two-sided already: the copy would lie in its original's shadow.
+  const auto mesh = load("sides.ply", ascii_ply("0 0 0\n1 0 0\n0 1 0\n1 1 0\n", 4,
+                                                "3 0 1 2\n3 2 1 3\n3 0 2 1\n3 2 3 1\n", 4));
+  ASSERT_TRUE(mesh) << core::to_string(mesh.problems());
+  EXPECT_EQ(mesh->indices.size(), 6u);
+  for (std::size_t i = 2; i < mesh->normals.size(); i += 3) EXPECT_GT(mesh->normals[i], 0.99f);
+}
+
 // [I-4]
 TEST_F(MeshFile, BigEndianAndAsciiPlyEqualLittleEndian) {
   const std::string header =
