@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "controller/core/geometry.h"
 #include "controller/panel/http.h"
 #include "controller/panel/state.h"
 
@@ -94,6 +95,12 @@ struct Measured {
   std::optional<double> distance_m;  ///< from the lamp; where the sitter is when absent
   std::optional<double> intensity;   ///< at which it was read; what is being sent when absent
 };
+/// Where a tracker sees the subject now, from where the studio file has it; nothing: it is no
+/// longer tracked, and the look is as it was.
+struct TrackSubject {
+  std::optional<core::Vec3> moved;  ///< metres, in the studio's axes
+  double turned = 0;                ///< radians about the upright, to its left
+};
 struct Reload {};
 struct MotionStop {
   bool on = true;
@@ -129,8 +136,8 @@ struct RemoveMood {
 };
 using Gesture =
     std::variant<StartDesign, CancelDesign, Nudge, WorkLight, SaveLook, RenameLook, ApplyLook,
-                 DeleteLook, Undo, SetFixture, SetMaster, Placed, Measured, Reload, MotionStop,
-                 Blackout, TrySlots, LearnLamp, AddMood, RemoveMood>;
+                 DeleteLook, Undo, SetFixture, SetMaster, Placed, Measured, TrackSubject, Reload,
+                 MotionStop, Blackout, TrySlots, LearnLamp, AddMood, RemoveMood>;
 
 /// What a person may have seen a slot do.
 inline constexpr const char* kSeen[] = {"nothing", "dimmer",     "fine",  "red",  "green", "blue",

@@ -165,7 +165,9 @@ void Brain::hear(ports::TimePoint now) {
   const bool alive = link_->hand_alive(now);
   if (alive != hand_alive_) changed();
   hand_alive_ = alive;
-  planner_.be_modest(alive && sent_ && !sent_->real_time);
+  const bool modest = alive && sent_ && !sent_->real_time;
+  planner_.be_modest(modest);
+  tracking_.be_modest(modest);
 }
 
 void Brain::speak(ports::TimePoint now) {

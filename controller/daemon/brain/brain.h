@@ -16,6 +16,7 @@
 #include "controller/daemon/brain/console.h"
 #include "controller/daemon/brain/placements.h"
 #include "controller/daemon/brain/planner.h"
+#include "controller/daemon/brain/tracking.h"
 #include "controller/daemon/hand_link.h"
 #include "controller/design/moods.h"
 #include "controller/panel/api.h"
@@ -78,7 +79,8 @@ class Brain final : public panel::Brain {
     std::unique_ptr<camera::Watch> watch;
   };
 
-  Brain(ports::World& world, Post post) : world_(world), post_(post), planner_(world.clock, post) {}
+  Brain(ports::World& world, Post post)
+      : world_(world), post_(post), tracking_(world.clock, post), planner_(world.clock, post) {}
   core::Result<core::Done> start(const std::filesystem::path& studio_file);
   core::Result<core::Done> take_studio(studio::Loaded loaded);
   void prepare_twin();
@@ -101,6 +103,7 @@ class Brain final : public panel::Brain {
   void carry_out(const panel::Measured& measured, const panel::Answer& answer);
   void carry_out(const panel::TrySlots& slots, const panel::Answer& answer);
   void carry_out(const panel::LearnLamp& lamp, const panel::Answer& answer);
+  void carry_out(const panel::TrackSubject& track, const panel::Answer& answer);
   void carry_out(const panel::Reload& reload, const panel::Answer& answer);
   void carry_out(const panel::MotionStop& stop, const panel::Answer& answer);
   void carry_out(const panel::Blackout& blackout, const panel::Answer& answer);
@@ -128,6 +131,9 @@ class Brain final : public panel::Brain {
   /// Applies now, or first solves the levels for where the lamps stand by now.
   void go_live(Live live, double fade_s, bool remember_last);
   void solve_again(double fade_s);
+  /// The live look for the light to keep; one object as long as nothing of it changes.
+  std::shared_ptr<const TrackedLook> tracked_look();
+  void take_frame(core::Result<Followed> followed);
   void solved_again(std::int64_t look, double fade_s, core::Result<Designed> result);
 
   // The state.
@@ -169,6 +175,8 @@ class Brain final : public panel::Brain {
   std::vector<std::int64_t> history_;  ///< looks that were live before, newest last
   std::optional<Job> job_;
   std::uint64_t jobs_ = 0, studio_turn_ = 0;
+  std::shared_ptr<const TrackedLook> tracked_;  ///< null: nobody tracks the subject
+  std::uint64_t trackings_ = 0;
   std::shared_ptr<JobBoard> again_;  ///< of the solve-again that is under way
   std::map<std::string, std::shared_ptr<Eye>> eyes_;
   std::function<void(const std::string&, std::shared_ptr<const std::string>)> show_;
@@ -181,8 +189,10 @@ class Brain final : public panel::Brain {
   std::deque<std::string> events_;
   bool dirty_ = true;
   std::shared_ptr<bool> here_ = std::make_shared<bool>(true);
-  Worker errands_;   // slow talks with the hand
-  Planner planner_;  // last: its thread uses what is above through the loop only
+  Worker errands_;  // slow talks with the hand
+  // Last: their threads use what is above through the loop only.
+  Tracking tracking_;
+  Planner planner_;
 };
 
 }  // namespace chiaro::daemon

@@ -60,9 +60,23 @@ void Console::apply(const studio::Studio& studio, const studio::Rig& rig, double
   rig::SourceState& manual = source(rig::Source::manual);
   look.fade_id = manual.fade_id = id;
   look.fade_s = manual.fade_s = fade_s;
+  faded_ = now + std::chrono::duration_cast<ports::Duration>(std::chrono::duration<double>(fade_s));
+  for (std::size_t i = 0; i < fixtures_; ++i) manual.fixtures[i] = {};
+  set_look(studio, rig);
+}
+
+void Console::follow(const studio::Studio& studio, const studio::Rig& rig, double fade_s,
+                     ports::TimePoint now) {
+  rig::SourceState& look = source(rig::Source::look);
+  look.fade_id = next_id(now);
+  look.fade_s = fade_s;
+  set_look(studio, rig);
+}
+
+void Console::set_look(const studio::Studio& studio, const studio::Rig& rig) {
+  rig::SourceState& look = source(rig::Source::look);
   for (std::size_t i = 0; i < fixtures_; ++i) {
     look.fixtures[i] = {};
-    manual.fixtures[i] = {};
     const studio::Fixture& fixture = studio.fixtures[i];
     if (!fixture.controlled || i >= rig.states.size()) continue;
     for (const core::DofInfo& dof : core::dofs())

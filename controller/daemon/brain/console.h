@@ -26,6 +26,12 @@ class Console {
   /// Faders that were held give way in the same fade, so that a click on a mood shows that mood.
   void apply(const studio::Studio& studio, const studio::Rig& rig, double fade_s,
              ports::TimePoint now);
+  /// What the look is to be from now on, in small steps while a subject is followed: faders that a
+  /// person holds stay above it.
+  void follow(const studio::Studio& studio, const studio::Rig& rig, double fade_s,
+              ports::TimePoint now);
+  /// When the last look that was applied has faded in.
+  ports::TimePoint faded() const { return faded_; }
   /// A person's faders: at once, above the look.
   void hold(std::size_t fixture, const core::FixtureState& values, ports::TimePoint now);
   /// Gives faders back to the look, in a short fade.
@@ -43,11 +49,13 @@ class Console {
 
  private:
   rig::SourceState& source(rig::Source which);
+  void set_look(const studio::Studio& studio, const studio::Rig& rig);
   std::uint64_t next_id(ports::TimePoint now);
 
   std::size_t fixtures_;
   rig::Wanted wanted_;
   std::uint64_t newest_id_ = 0;
+  ports::TimePoint faded_;
 };
 
 /// Fixtures' values that a person sets: placements of stands, knobs, gels.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The studio as a whole: darkness, standstill, its file, and lamps it does not know yet.
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 #include "controller/panel/made.h"
@@ -95,6 +96,29 @@ void read_light(Fields& fields, LearnLamp& lamp) {
 }
 
 }  // namespace
+
+Made track_subject(const Request& request, const Words&, const State&) {
+  constexpr double kFarthest = 50;  // metres, as large as a studio's subject may be
+  Fields fields(request.body);
+  TrackSubject gesture;
+  fields.required("moved_m");
+  const Json moved = fields.any("moved_m");
+  core::Vec3 by;
+  double* axes[] = {&by.x, &by.y, &by.z};
+  bool fits = moved.is_array() && moved.size() == 3;
+  for (std::size_t i = 0; i < 3 && fits; ++i) {
+    fits = moved[i].is_number() && std::abs(moved[i].get<double>()) <= kFarthest;
+    if (fits) *axes[i] = moved[i].get<double>();
+  }
+  if (!fits)
+    fields.fail(422, "'moved_m' must be three lengths within 50 m", "moved_m",
+                "send metres along the studio's axes, as in [0.1, 0, 0]");
+  gesture.moved = by;
+  gesture.turned = core::radians(fields.number("turned_deg", {-3600, 3600}).value_or(0));
+  return checked(fields, gesture);
+}
+
+Made untrack_subject(const Request&, const Words&, const State&) { return Gesture(TrackSubject{}); }
 
 Made reload(const Request& request, const Words&, const State&) {
   Fields fields(request.body);

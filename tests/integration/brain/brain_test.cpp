@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/integration/brain/brain_test.h"
 
+#include "controller/daemon/box.h"
+#include "controller/daemon/box_words.h"
+#include "controller/studio/load.h"
+
 namespace chiaro::daemon {
 namespace {
 
@@ -179,6 +183,71 @@ TEST_F(BrainTest, TakesALookThatWasMadeElsewhere) {
   EXPECT_FALSE(perform(panel::ApplyLook{id, 0}).refused);
   EXPECT_EQ(brain_->state().look->name, "Taken");
   EXPECT_EQ(perform(panel::SaveLook{"x", "{}"}).refused->status, 422);
+}
+
+/// What the brain tells the hand, read as the hand reads it.
+class Overheard {
+ public:
+  explicit Overheard(const ports::World& world, const std::filesystem::path& file)
+      : studio_(studio::load_studio(file, {world.config_folder})->studio),
+        reader_(*BoxReader::open(world.runtime_folder / "wanted.box", wanted_format(studio_))),
+        words_(wanted_format(studio_).words),
+        wanted_(sized_wanted(studio_)) {}
+  const rig::SourceState& look() {
+    if (reader_->read(words_)) from_words(words_, wanted_);
+    return wanted_.sources[static_cast<std::size_t>(rig::Source::look)];
+  }
+
+ private:
+  studio::Studio studio_;
+  std::unique_ptr<BoxReader> reader_;
+  std::vector<std::uint64_t> words_;
+  rig::Wanted wanted_;
+};
+
+TEST_F(BrainTest, TheLightFollowsATrackedSubjectInSmallStepsAndComesBack) {
+  open();
+  panel::TrackSubject track;
+  track.moved = core::Vec3{0, 0.5, 0};
+  EXPECT_EQ(perform(track).refused->status, 409) << "there is no look to keep yet";
+  design(like_a_picture());
+  clock_.advance(3s);
+  brain_->tick(clock_.now());
+  Overheard hand(fake_.world, folder_.path() / "studio.yaml");
+  const double before = hand.look().fixtures[0].get(core::Dof::intensity);
+  ASSERT_GT(before, 0);
+  ASSERT_LT(before, 0.8);
+  double last = before;
+  for (int i = 0; i < 30; ++i) {
+    clock_.advance(40ms);
+    const std::uint64_t fade = hand.look().fade_id;
+    EXPECT_FALSE(perform(track).refused);
+    while (hand.look().fade_id == fade) queue_.run_one();
+    const double now = hand.look().fixtures[0].get(core::Dof::intensity);
+    EXPECT_LE(std::abs(now - last), 0.5 * 0.041) << i;
+    EXPECT_LE(hand.look().fade_s, 0.041);
+    last = now;
+  }
+  EXPECT_GT(std::abs(last - before), 0.02) << "it stands elsewhere in the lamps' light";
+  EXPECT_FALSE(perform(panel::TrackSubject{}).refused);
+  EXPECT_NEAR(hand.look().fixtures[0].get(core::Dof::intensity), before, 1e-6);
+}
+
+TEST_F(BrainTest, AFaderThatAPersonHoldsStaysWhileTheSubjectIsTracked) {
+  open();
+  design(like_a_picture());
+  core::FixtureState half;
+  half.set(core::Dof::intensity, 0.5);
+  perform(panel::SetFixture{"key", half, {}, {}});
+  clock_.advance(3s);
+  panel::TrackSubject track;
+  track.moved = core::Vec3{0, 0.2, 0};
+  brain_->tick(clock_.now());
+  Overheard hand(fake_.world, folder_.path() / "studio.yaml");
+  const std::uint64_t fade = hand.look().fade_id;
+  perform(track);
+  while (hand.look().fade_id == fade) queue_.run_one();
+  EXPECT_EQ(key().manual.get(core::Dof::intensity), 0.5);
 }
 
 }  // namespace
