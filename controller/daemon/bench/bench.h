@@ -47,6 +47,10 @@ studio::Studio with_points(studio::Studio studio);
 
 /// Of this process so far.
 double peak_megabytes();
+/// Processor time of all threads: on a busy machine it tells more than the clock on the wall.
+double processor_seconds();
+/// "1.83 s of processor time"
+std::string in_processor_time(double seconds);
 
 /// Bytes per second that one core reads from a working set of that size.
 double read_bandwidth(const ports::Clock& clock, std::size_t bytes, bool quick);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <bit>
+#include <cstdio>
 #include <fstream>
 #include <sys/resource.h>
 
@@ -97,13 +98,14 @@ core::Result<studio::Studio> with_many_triangles(const Plan& plan,
 }
 
 struct Cold {
-  double seconds = 0, twin_s = 0;
+  double seconds = 0, twin_s = 0, processor_s = 0;
   std::uint64_t trials = 0;
 };
 
 core::Result<Cold> cold_design(const Plan& plan, const studio::Studio& studio,
                                const std::filesystem::path& meshes, ports::World& world) {
   const Stopwatch watch(world.clock);
+  const double processor = processor_seconds();
   const auto twin = design::geometric_layers(studio, {.mesh_cache = meshes});
   if (!twin) return twin.problems();
   Cold out;
@@ -111,6 +113,7 @@ core::Result<Cold> cold_design(const Plan& plan, const studio::Studio& studio,
   const auto look = design::design(studio, **twin, plan.mood, options_for(plan, world));
   if (!look) return look.problems();
   out.seconds = watch.seconds();
+  out.processor_s = processor_seconds() - processor;
   out.trials = look->trials;
   return out;
 }
@@ -126,25 +129,31 @@ core::Result<core::Done> with_a_million(const Plan& plan, const std::filesystem:
   const auto many = cold_design(plan, *studio, folder / "meshes", world);
   if (!many) return many.problems();
   report.add("cold design, 1.1 M triangles", many->seconds, "s", at_most(1.5),
-             "twin " + std::to_string(static_cast<int>(many->twin_s * 1000)) + " ms");
+             "twin " + std::to_string(static_cast<int>(many->twin_s * 1000)) + " ms, " +
+                 in_processor_time(many->processor_s));
   return core::Done{};
 }
 
 /// Each time from a view that has seen another mood, never this one.
-core::Result<double> warm_design(const Plan& plan, const std::filesystem::path& meshes,
-                                 const design::Options& options, ports::World& world) {
-  std::vector<double> times;
+core::Result<Cold> warm_design(const Plan& plan, const std::filesystem::path& meshes,
+                               const design::Options& options, ports::World& world) {
+  std::vector<double> times, processor;
   for (int round = 0; round < (plan.quick ? 1 : 3) && !world.stop; ++round) {
     const auto twin = design::geometric_layers(plan.studio, {.mesh_cache = meshes});
     if (!twin) return twin.problems();
     if (const auto look = design::design(plan.studio, **twin, plan.mood, options); !look)
       return look.problems();
     const Stopwatch watch(world.clock);
+    const double before = processor_seconds();
     if (const auto look = design::design(plan.studio, **twin, plan.other_mood, options); !look)
       return look.problems();
     times.push_back(watch.seconds());
+    processor.push_back(processor_seconds() - before);
   }
-  return median(std::move(times));
+  Cold out;
+  out.seconds = median(std::move(times));
+  out.processor_s = median(std::move(processor));
+  return out;
 }
 
 }  // namespace
@@ -153,6 +162,23 @@ double peak_megabytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+double processor_seconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+std::string in_processor_time(double seconds) {
+  char text[48];
+  std::snprintf(text, sizeof text,
+                seconds < 1 ? "%.0f ms of processor time" : "%.2f s of processor time",
+                seconds < 1 ? 1000 * seconds : seconds);
+  return text;
 }
 
 core::Result<core::Done> designs(const Plan& plan, ports::World& world, Report& report) {
@@ -164,7 +190,8 @@ core::Result<core::Done> designs(const Plan& plan, ports::World& world, Report& 
   if (!cold) return cold.problems();
   report.add("cold design, the studio's own subject", cold->seconds, "s", at_most(1.5),
              std::to_string(cold->trials) + " trials, twin " +
-                 std::to_string(static_cast<int>(cold->twin_s * 1000)) + " ms");
+                 std::to_string(static_cast<int>(cold->twin_s * 1000)) + " ms, " +
+                 in_processor_time(cold->processor_s));
 
   const auto twin = design::geometric_layers(plan.studio, {.mesh_cache = meshes});
   if (!twin) return twin.problems();
@@ -173,7 +200,8 @@ core::Result<core::Done> designs(const Plan& plan, ports::World& world, Report& 
     return look.problems();
   const auto warm = warm_design(plan, meshes, options, world);
   if (!warm) return warm.problems();
-  report.add("warm design, same view, new mood", *warm * 1000, "ms", at_most(100));
+  report.add("warm design, same view, new mood", warm->seconds * 1000, "ms", at_most(100),
+             in_processor_time(warm->processor_s));
   const auto again = median_s(world.clock, plan.quick ? 1 : 3, [&] {
     (void)design::design(plan.studio, **twin, plan.mood, options);
   });

@@ -118,7 +118,7 @@ void Brain::take_frame(core::Result<Followed> followed) {
     return changed();
   }
   const ports::TimePoint now = world_.clock.now();
-  if (now < console_->faded()) return;  // a look's own fade is not cut short
+  if (now < console_->faded()) return;           // a look's own fade is not cut short
   if (sent_ && sent_->cue.playing >= 0) return;  // nor is a cue ended
   console_->follow(studio_, followed->rig, followed->seconds, now);
   if (!adopted_) return;
