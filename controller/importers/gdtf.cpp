@@ -75,6 +75,7 @@ class Geometries {
   std::map<std::string, std::vector<Instance>> below(const std::string& mode_geometry) const {
     std::map<std::string, std::vector<Instance>> found;
     const auto top = roots_.find(mode_geometry);
+    visited_ = 0;
     if (top != roots_.end()) walk(top->second, Instance{{{1, 1}}}, 0, found);
     return found;
   }
@@ -83,6 +84,7 @@ class Geometries {
   std::vector<pugi::xml_node> beams(const std::string& mode_geometry) const {
     std::vector<pugi::xml_node> found;
     const auto top = roots_.find(mode_geometry);
+    visited_ = 0;
     if (top != roots_.end()) collect_beams(top->second, 0, found);
     return found;
   }
@@ -110,7 +112,7 @@ class Geometries {
   }
 
   void collect_beams(pugi::xml_node node, int depth, std::vector<pugi::xml_node>& found) const {
-    if (depth > kDeepest || found.size() > 512 || visited_++ > 40'000) return;
+    if (depth > kDeepest || found.size() > 512 || visited_++ > 20'000) return;
     if (std::string_view(node.name()) == "Beam") found.push_back(node);
     for (const pugi::xml_node child : node.children()) {
       if (std::string_view(child.name()) == "GeometryReference") {
@@ -123,7 +125,7 @@ class Geometries {
   }
 
   std::map<std::string, pugi::xml_node> roots_;
-  mutable int visited_ = 0;  ///< a tree of references can be exponentially large
+  mutable int visited_ = 0;  ///< by one walk: a tree of references can be exponentially large
 };
 
 /// One channel function with where it starts and ends.

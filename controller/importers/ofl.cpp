@@ -36,7 +36,9 @@ const Json& child(const Json& json, const char* key) {
 
 std::string replaced(std::string words, const std::string& pixel) {
   constexpr std::string_view kKey = "$pixelKey";
-  for (std::size_t at; (at = words.find(kKey)) != std::string::npos && words.size() < 400;)
+  // On from what was put in: a pixel may be called "$pixelKey" itself.
+  for (std::size_t at = 0; (at = words.find(kKey, at)) != std::string::npos && words.size() < 400;
+       at += pixel.size())
     words.replace(at, kKey.size(), pixel);
   return words;
 }

@@ -33,7 +33,7 @@ namespace chiaro::patch {
 class Plan {
  public:
   /// Precondition: the studio came from load_studio (addresses and modes are right). Warnings name
-  /// what is planned but has no driver yet.
+  /// fixtures whose patch reaches no wire.
   static Plan of(const studio::Studio& studio, core::Problems* warnings = nullptr);
 
   /// One entry per output of the studio and per patched universe, ascending.
@@ -58,7 +58,7 @@ class Plan {
     std::uint16_t universe = 1;
     int first = 1, last = 1;  ///< slots, 1..512
     std::string channel;
-    std::string law;  ///< "intensity, 16 bit, square curve", "open (255)"
+    std::string law;  ///< "intensity, 16 bit", "open 255, 8 bit"
   };
   std::vector<Line> sheet() const;
 

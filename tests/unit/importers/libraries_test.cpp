@@ -112,6 +112,30 @@ TEST(Ofl, TakesFineBytesGapsRangesAndPixels) {
   EXPECT_EQ(at(pixels, 11).dof, Dof::blue);
 }
 
+TEST(Gdtf, TheLastOfManyModesHasAllItsPixelsToo) {
+  std::string many = samples::kGdtf;
+  const std::string head = "<Axis Name=\"Head\">";
+  std::string parts;
+  for (int i = 0; i < 2000; ++i) parts += "<Geometry Name=\"Part\"/>";
+  many.insert(many.find(head) + head.size(), parts);
+  const std::size_t begin = many.find("<DMXMode "), end = many.find("</DMXModes>");
+  const std::string mode = many.substr(begin, end - begin);
+  std::string others;
+  for (int i = 0; i < 20; ++i) others += mode;
+  many.insert(end, others);
+  const auto profile = taken(gdtf_of(many), ".gdtf").profile;
+  ASSERT_EQ(profile.modes.size(), 21u);
+  EXPECT_EQ(profile.modes.back().channels.size(), profile.modes.front().channels.size());
+  EXPECT_EQ(profile.modes.back().footprint, profile.modes.front().footprint);
+}
+
+TEST(Hostile, APixelNamedLikeThePlaceOfItsNameEnds) {
+  std::string own = samples::kOfl;
+  const std::string pixels = R"([[["1", "2", "3"]]])";
+  own.replace(own.find(pixels), pixels.size(), R"([[["$pixelKey", "2", "3"]]])");
+  EXPECT_TRUE(import_fixture(own, ".json", "acme", "own.json").ok());
+}
+
 TEST(Hostile, FilesAreRefusedWithASentence) {
   const std::string good = gdtf_of(samples::kGdtf);
   EXPECT_NE(refused(good.substr(0, good.size() / 2), ".gdtf").find("no whole zip"),
