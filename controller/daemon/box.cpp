@@ -22,7 +22,7 @@ namespace {
 constexpr std::uint64_t kMagic = 0x584f424f52414843;  // "CHAROBOX"
 /// The layout's own number, and what else shapes the words: a build with one DOF more is another
 /// layout.
-constexpr std::uint64_t kLayout = 2u << 16u | core::kDofs << 8u | rig::kSources;
+constexpr std::uint64_t kLayout = 3u << 16u | core::kDofs << 8u | rig::kSources;
 
 std::uint64_t load(const std::uint64_t& word) {
   // atomic_ref of a const type came after C++20; a load does not write.

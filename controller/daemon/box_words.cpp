@@ -127,9 +127,11 @@ void walk_wanted(Walk& walk, Wanted& wanted) {
     for (auto& state : source.fixtures) walk(state);
   }
   for (auto& master : wanted.masters) walk(master);
+  for (auto& id : wanted.master_id) walk(id);
   walk(wanted.blackout);
   walk(wanted.blackout_id);
   walk.bytes(wanted.marks);
+  for (auto& id : wanted.release_id) walk(id);
   walk(wanted.blind);
   walk_latch(walk, wanted.motion_stop);
   walk_latch(walk, wanted.motion_armed);
@@ -164,6 +166,7 @@ void walk_sent(Walk& walk, Sent& sent) {
     for (auto& state : source.fixtures) walk(state);
   }
   for (auto& master : sent.masters) walk(master);
+  for (auto& id : sent.master_id) walk(id);
   for (auto& id : sent.fade_id) walk(id);
   for (auto& progress : sent.fade_progress) walk(progress);
   walk.small(sent.caution);
@@ -196,6 +199,7 @@ rig::Wanted sized_wanted(const studio::Studio& studio) {
   rig::Wanted wanted;
   for (auto& source : wanted.sources) source.fixtures.resize(studio.fixtures.size());
   wanted.marks.resize(studio.fixtures.size());
+  wanted.release_id.resize(studio.fixtures.size());
   return wanted;
 }
 
@@ -230,6 +234,7 @@ void to_words(const rig::Wanted& wanted, std::size_t fixtures, std::span<std::ui
   rig::Wanted padded = wanted;
   for (auto& source : padded.sources) source.fixtures.resize(fixtures);
   padded.marks.resize(fixtures);
+  padded.release_id.resize(fixtures);
   Put put(words);
   walk_wanted(put, padded);
 }

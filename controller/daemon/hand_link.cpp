@@ -100,7 +100,10 @@ std::optional<rig::Wanted> HandLink::adopted() {
   if (!sent) return std::nullopt;
   rig::Wanted wanted;
   wanted.sources = sent->sources;
+  for (const auto hands : {rig::Source::cue, rig::Source::own})
+    for (auto& state : wanted.sources[static_cast<std::size_t>(hands)].fixtures) state = {};
   wanted.masters = sent->masters;
+  wanted.master_id = sent->master_id;
   wanted.blackout = sent->blackout;
   wanted.blackout_id = sent->blackout_id;
   wanted.marks = sent->marks;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "controller/rig/governor_state.h"
 
@@ -24,7 +26,9 @@ Governor::State::State(const studio::Studio& studio, TimePoint now)
       power(studio),
       keep_out(studio),
       levels(studio.fixtures.size()),
-      last_step(now) {}
+      last_step(now) {
+  brain_masters.fill(std::numeric_limits<double>::quiet_NaN());
+}
 
 void Governor::State::add(const Lamp& lamp, const FixtureState* held) {
   lamps.push_back(lamp);
@@ -34,6 +38,7 @@ void Governor::State::add(const Lamp& lamp, const FixtureState* held) {
       if (const auto dof = static_cast<core::Dof>(d); lamp.can(d) && held->has(dof))
         base.set(dof, lamp.range[d].clamp(held->get(dof)));
   sources.add(lamps.back(), held);
+  release_id.push_back(0);
   brains.push_back(0);
   own.push_back(0);
   marks.push_back(0);
@@ -59,13 +64,23 @@ Governor::Governor(const studio::Studio& studio, TimePoint now, const Held* held
     if (dark) before.clear(core::Dof::intensity);  // axes stay where they are all the same
     s.add(lamp_of(studio.fixtures[i], known, dark), &before);
   }
-  if (held == nullptr) return;
-  s.blackout = held->blackout;  // latched until somebody releases it, power cut or not
-  s.motion.stop(held->motion_stop);
-  s.recall_marks(*held);
-  s.sources.remember(held->fade_id);
-  if (!dark)
-    for (std::size_t m = 0; m < kMasters; ++m) s.masters[m] = tidy_master(held->masters[m]);
+  if (held != nullptr) s.recall(*held, dark);
+}
+
+void Governor::State::recall(const Held& held, bool dark) {
+  blackout = held.blackout;  // latched until somebody releases it, power cut or not
+  motion.stop(held.motion_stop);
+  recall_marks(held);
+  sources.remember(held.fade_id);
+  master_id = held.master_id;
+  blackout_id = held.blackout_id;
+  stop_id = held.stop_id;
+  arm_id = held.arm_id;
+  if (dark) return;
+  recalled = true;
+  for (std::size_t m = 0; m < kMasters; ++m) masters[m] = tidy_master(held.masters[m]);
+  for (std::size_t i = 0; i < lamps.size() && i < held.own.size(); ++i)
+    sources.recall_own(i, lamps[i], held.own[i]);
 }
 
 Governor::~Governor() = default;
@@ -83,6 +98,33 @@ void Governor::State::hear_latches(const Wanted& wanted) {
   }
 }
 
+/// A master that the brain has a new wish for; what it said before, or said to the hand that ran
+/// before a power cut, does not undo what was done at the hand since.
+void Governor::State::hear_masters(const Wanted& wanted) {
+  for (std::size_t m = 0; m < kMasters; ++m) {
+    const double level = tidy_master(wanted.masters[m]);
+    const bool first = std::isnan(brain_masters[m]);
+    const bool fresh = wanted.master_id[m] != master_id[m] || (first && !recalled);
+    if (fresh || (!first && level != brain_masters[m])) set_master(m, level);
+    brain_masters[m] = level;
+    master_id[m] = wanted.master_id[m];
+  }
+}
+
+void Governor::State::hear_releases(const Wanted& wanted, TimePoint now) {
+  for (std::size_t i = 0; i < release_id.size() && i < wanted.release_id.size(); ++i) {
+    const std::uint64_t id = std::exchange(release_id[i], wanted.release_id[i]);
+    if (id != release_id[i] && heard_releases)
+      sources.release_own(i, lamps, kReleaseFade, now, woken);
+  }
+  heard_releases = true;
+}
+
+void Governor::State::set_master(std::size_t master, double level) {
+  if (level != masters[master]) wake_all();
+  masters[master] = level;
+}
+
 void Governor::take(const Wanted& wanted, TimePoint now) {
   State& s = *state_;
   const TimePoint posted{std::chrono::nanoseconds(wanted.posted_ns)};
@@ -95,16 +137,13 @@ void Governor::take(const Wanted& wanted, TimePoint now) {
     s.arm_id = wanted.motion_armed.id;
     s.motion.arm(wanted.motion_armed.on);
   }
-  for (std::size_t i = 0; i < kMasters; ++i) {
-    const double level = tidy_master(wanted.masters[i]);
-    if (level != s.masters[i]) s.wake_all();
-    s.masters[i] = level;
-  }
+  s.hear_masters(wanted);
   for (std::size_t i = 0; i < s.brains.size(); ++i)
     s.brains[i] = i < wanted.marks.size() ? wanted.marks[i] : Marks{0};
   s.settle_marks();
   s.blind = wanted.blind;
-  if (!s.blind) s.sources.hear(s.lamps, wanted.sources, now, s.woken);
+  s.hear_releases(wanted, now);
+  if (!s.blind && !s.own_blind) s.sources.hear(s.lamps, wanted.sources, now, s.woken);
 }
 
 void Governor::refuse() { state_->watch.refuse(true); }
@@ -115,6 +154,24 @@ void Governor::arm_motion(bool on) { state_->motion.arm(on); }
 Caution Governor::caution() const { return state_->caution; }
 void Governor::stand_on(const SourceState& cue) { state_->sources.stand_on(state_->lamps, cue); }
 bool Governor::cue_plays() const { return state_->sources.has_cue(); }
+
+void Governor::set_blind(bool on) { state_->own_blind = on; }
+
+void Governor::set_master(Master master, double level) {
+  if (std::isfinite(level))
+    state_->set_master(static_cast<std::size_t>(master), tidy_master(level));
+}
+
+void Governor::set_level(std::size_t fixture, core::Dof dof, double value, TimePoint now) {
+  State& s = *state_;
+  if (fixture < s.lamps.size()) s.sources.hear_own(fixture, s.lamps, dof, value, now, s.woken);
+}
+
+void Governor::release(std::size_t fixture, TimePoint now) {
+  State& s = *state_;
+  if (fixture < s.lamps.size())
+    s.sources.release_own(fixture, s.lamps, kReleaseFade, now, s.woken);
+}
 
 void Governor::mark(std::size_t fixture, Mark mark, bool on, TimePoint now) {
   State& s = *state_;

@@ -55,13 +55,20 @@ struct Held {
   bool blackout = false;
   bool motion_stop = false;
   std::vector<Marks> marks, own_marks;            ///< by fixture index: all, and the hand's own
-  std::array<std::uint64_t, kSources> fade_id{};  ///< taken before: the same ids start no fade
+  std::vector<core::FixtureState> own;            ///< by fixture index: faders at the hand
+  /// Wishes of the brain's that were taken before: hearing of them again starts no fade, moves no
+  /// master and releases no latch that has been thrown at the hand since.
+  std::array<std::uint64_t, kSources> fade_id{};
+  std::array<std::uint64_t, kMasters> master_id{};
+  std::uint64_t blackout_id = 0, stop_id = 0, arm_id = 0;
   std::optional<double> cue;  ///< that was on stage: the look of before the cut stays below it
   friend bool operator==(const Held&, const Held&) = default;
 };
 
 /// How long a flash lasts that was asked for at the hand and not asked for again.
 inline constexpr ports::Duration kFlashLease = std::chrono::seconds(2);
+/// How long a lamp that is let go at the hand takes to go back, seconds.
+inline constexpr double kReleaseFade = 0.5;
 
 /// Everything but construction is real-time: no allocation, lock, log or throw. One thread.
 class Governor {
@@ -86,6 +93,16 @@ class Governor {
   /// The hand's own motion stop and arming; latched like the blackout.
   void stop_motion(bool on);
   void arm_motion(bool on);
+  /// A fader at the hand itself: at once, and above everything but limits, caution and blackout,
+  /// until a newer word of the brain's (see `Source`) or `release`. Clamped to the DOF's range; a
+  /// DOF that the lamp does not have, and what is no number, is passed over.
+  void set_level(std::size_t fixture, core::Dof dof, double value, ports::TimePoint now);
+  /// Gives the lamp back to whoever else has an opinion, in a fade of `kReleaseFade`.
+  void release(std::size_t fixture, ports::TimePoint now);
+  /// The newest of the hand's and the brain's wishes stands. 0..1.
+  void set_master(Master master, double level);
+  /// Blind at the hand: what the brain says is prepared, not sent; ended, it fades in by its ids.
+  void set_blind(bool on);
   /// Marks a lamp at the hand itself, or takes that mark away (the brain's own marks stay).
   void mark(std::size_t fixture, Mark mark, bool on, ports::TimePoint now);
   /// Puts a cue on stage over its own fade time, or, with no fixtures, takes it off. A new look

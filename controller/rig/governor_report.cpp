@@ -47,10 +47,11 @@ void Governor::report(Sent& into) const {
   std::copy(s.limited.begin(), s.limited.end(), into.limited.begin());
   std::copy(s.power.circuits().begin(), s.power.circuits().end(), into.circuits.begin());
   into.masters = s.masters;
+  into.master_id = s.master_id;
   into.caution = s.caution;
   into.blackout = s.blackout;
   into.blackout_id = s.blackout_id;
-  into.blind = s.blind;
+  into.blind = s.blind || s.own_blind;
   into.motion_stop = {s.motion.stopped(), s.stop_id};
   into.motion_armed = {s.motion.armed(), s.arm_id};
   into.refused = s.watch.refused();
@@ -68,6 +69,7 @@ void Governor::carry_on(const Governor& before, std::span<const std::ptrdiff_t> 
         s.lamps[i].base.set(dof, s.lamps[i].range[d].clamp(old.lamps[j].base.get(dof)));
     s.slewed[i] = old.slewed[j];
     s.levels.fixtures_[i] = old.levels.fixtures_[j];
+    s.release_id[i] = old.release_id[j];
     s.brains[i] = old.brains[j];
     s.own[i] = old.own[j];
     s.parked[i] = old.parked[j];
@@ -78,11 +80,14 @@ void Governor::carry_on(const Governor& before, std::span<const std::ptrdiff_t> 
   s.watch.carry(old.watch);
   s.motion = old.motion;
   s.masters = old.masters;
+  s.brain_masters = old.brain_masters;
+  s.master_id = old.master_id;
   s.blackout = old.blackout;
   s.blackout_id = old.blackout_id;
   s.stop_id = old.stop_id;
   s.arm_id = old.arm_id;
   s.blind = old.blind;
+  s.own_blind = old.own_blind;
   s.brain_was = old.brain_was;
   s.flash_until = old.flash_until;
   s.last_step = old.last_step;

@@ -32,7 +32,13 @@ struct Governor::State {
   AllowedLevels levels;
 
   std::array<double, kMasters> masters{1, 1, 1, 1, 1};
-  bool blackout = false, blind = false, stepped = false;
+  /// The brain's newest wishes; no numbers until it has spoken to this governor.
+  std::array<double, kMasters> brain_masters;
+  std::array<std::uint64_t, kMasters> master_id{};
+  std::vector<std::uint64_t> release_id;  ///< by lamp
+  bool blackout = false, blind = false, own_blind = false, stepped = false;
+  bool recalled = false;        ///< masters come from before a power cut
+  bool heard_releases = false;  ///< what the brain said before this governor was made is done
   std::uint64_t blackout_id = 0, stop_id = 0, arm_id = 0;
   Caution caution = Caution::hold;
   ports::TimePoint last_step;
@@ -55,8 +61,12 @@ struct Governor::State {
   void add(const Lamp& lamp, const core::FixtureState* held);
   void wake_all() { std::fill(woken.begin(), woken.end(), std::uint8_t{1}); }
   void settle_marks();
+  void recall(const Held& held, bool dark);
   void recall_marks(const Held& held);
   void hear_latches(const Wanted& wanted);
+  void hear_masters(const Wanted& wanted);
+  void hear_releases(const Wanted& wanted, ports::TimePoint now);
+  void set_master(std::size_t master, double level);
 
   // A frame, lamp by lamp (governor_step.cpp).
   bool may_move() const { return motion.armed() && !motion.stopped() && !blackout; }

@@ -101,7 +101,7 @@ bool Governor::State::follow_axis(std::size_t i, std::size_t d, double wanted, d
 
 bool Governor::State::follow_light(std::size_t i, std::size_t d, double wanted, TimePoint now) {
   Track& t = sources.track(i, d);
-  if (t.winner == static_cast<int>(Source::manual)) {
+  if (t.winner >= static_cast<int>(Source::manual)) {  // a person's hand
     t.sent = wanted;
     t.guard.follow(t.sent);
     return false;

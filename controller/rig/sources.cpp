@@ -15,6 +15,8 @@ namespace {
 constexpr double kLongestFade = 24 * 3600;
 constexpr auto kCue = static_cast<std::size_t>(Source::cue);
 constexpr auto kLook = static_cast<std::size_t>(Source::look);
+constexpr auto kManual = static_cast<std::size_t>(Source::manual);
+constexpr auto kOwn = static_cast<std::size_t>(Source::own);
 }  // namespace
 
 void Sources::add(const Lamp& lamp, const FixtureState* held) {
@@ -52,6 +54,11 @@ bool Sources::hear_source(std::size_t s, const Lamp& lamp, std::size_t i, const 
     }
   FixtureState& mine = words_[s].fixtures[i];
   if (!fresh_[s] && heard == mine) return false;
+  if (s == kManual && fresh_[s])  // the newest fader has the say
+    for (std::size_t d = 0; d < kDofs; ++d)
+      if (const Dof dof = static_cast<Dof>(d);
+          heard.has(dof) && (!mine.has(dof) || mine.get(dof) != heard.get(dof)))
+        words_[kOwn].fixtures[i].clear(dof);
   mine = heard;
   return true;
 }
@@ -60,12 +67,13 @@ void Sources::hear(std::span<const Lamp> lamps, std::span<const SourceState, kSo
                    TimePoint now, std::vector<std::uint8_t>& woken) {
   for (std::size_t s = 0; s < kSources; ++s) {
     fresh_[s] = false;
-    if (s == kCue) continue;
+    if (s == kCue || s == kOwn) continue;
     begin(s, words[s].fade_id, words[s].fade_s, now);
     for (std::size_t i = 0; i < lamps.size(); ++i)
       if (hear_source(s, lamps[i], i, words[s])) changed_[i] = 1;
   }
   if (cue_ && fresh_[kLook]) end_cue(now, words_[kLook].fade_s);
+  if (fresh_[kLook]) end_own(now, words_[kLook].fade_s);
   retarget_all(lamps, now, woken);
 }
 
@@ -87,6 +95,46 @@ void Sources::end_cue(TimePoint now, double fade_s) {
   for (auto& state : words_[kCue].fixtures) state = {};
   std::fill(changed_.begin(), changed_.end(), std::uint8_t{1});
   cue_ = false;
+}
+
+/// As the brain's own faders do, so that a click on a look shows that look.
+void Sources::end_own(TimePoint now, double fade_s) {
+  const auto empty = [](const FixtureState& state) { return state.present() == 0; };
+  auto& own = words_[kOwn].fixtures;
+  if (std::all_of(own.begin(), own.end(), empty)) return;
+  begin(kOwn, words_[kOwn].fade_id + 1, fade_s, now);
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    if (!empty(own[i])) changed_[i] = 1;
+    own[i] = {};
+  }
+}
+
+void Sources::hear_own(std::size_t i, std::span<const Lamp> lamps, Dof dof, double value,
+                       TimePoint now, std::vector<std::uint8_t>& woken) {
+  const std::size_t d = core::index_of(dof);
+  if (!lamps[i].can(d) || !std::isfinite(value)) return;
+  fresh_.fill(false);
+  begin(kOwn, words_[kOwn].fade_id + 1, 0, now);
+  words_[kOwn].fixtures[i].set(dof, lamps[i].range[d].clamp(value));
+  changed_[i] = 1;
+  retarget_all(lamps, now, woken);
+}
+
+void Sources::release_own(std::size_t i, std::span<const Lamp> lamps, double fade_s, TimePoint now,
+                          std::vector<std::uint8_t>& woken) {
+  if (words_[kOwn].fixtures[i].present() == 0) return;
+  fresh_.fill(false);
+  begin(kOwn, words_[kOwn].fade_id + 1, fade_s, now);
+  words_[kOwn].fixtures[i] = {};
+  changed_[i] = 1;
+  retarget_all(lamps, now, woken);
+}
+
+void Sources::recall_own(std::size_t i, const Lamp& lamp, const FixtureState& own) {
+  for (std::size_t d = 0; d < kDofs; ++d)
+    if (const Dof dof = static_cast<Dof>(d);
+        lamp.can(d) && own.has(dof) && std::isfinite(own.get(dof)))
+      words_[kOwn].fixtures[i].set(dof, lamp.range[d].clamp(own.get(dof)));
 }
 
 void Sources::retarget_all(std::span<const Lamp> lamps, TimePoint now,

@@ -38,6 +38,12 @@ class Sources {
                 std::span<const Marks> marks, ports::TimePoint now,
                 std::vector<std::uint8_t>& woken);
   bool has_cue() const { return cue_; }
+  /// One DOF of lamp i as its own fader has it, at once.
+  void hear_own(std::size_t i, std::span<const Lamp> lamps, core::Dof dof, double value,
+                ports::TimePoint now, std::vector<std::uint8_t>& woken);
+  /// Lamp i's own faders let go.
+  void release_own(std::size_t i, std::span<const Lamp> lamps, double fade_s, ports::TimePoint now,
+                   std::vector<std::uint8_t>& woken);
 
   Track& track(std::size_t lamp, std::size_t d) { return tracks_[lamp * core::kDofs + d]; }
   const Track& track(std::size_t lamp, std::size_t d) const {
@@ -50,6 +56,8 @@ class Sources {
   /// The fades that were taken before a power cut: hearing of them again starts none of them.
   void remember(const std::array<std::uint64_t, kSources>& fade_ids);
   void stand_on(std::span<const Lamp> lamps, const SourceState& cue);
+  /// After a power cut: its own faders stand where they stood. Starts no fade.
+  void recall_own(std::size_t i, const Lamp& lamp, const core::FixtureState& own);
   /// Lamp i goes on where lamp j of `before` is.
   void carry(std::size_t i, const Lamp& lamp, const Sources& before, std::size_t j,
              const Lamp& was);
@@ -59,6 +67,7 @@ class Sources {
   bool hear_source(std::size_t s, const Lamp& lamp, std::size_t i, const SourceState& word);
   void begin(std::size_t s, std::uint64_t id, double fade_s, ports::TimePoint now);
   void end_cue(ports::TimePoint now, double fade_s);
+  void end_own(ports::TimePoint now, double fade_s);
   void retarget_all(std::span<const Lamp> lamps, ports::TimePoint now,
                     std::vector<std::uint8_t>& woken);
   int winner(std::size_t lamp, core::Dof dof) const;

@@ -33,6 +33,22 @@ std::string_view name_of(Mark mark) {
   return "?";
 }
 
+std::string_view name_of(Master master) {
+  switch (master) {
+    case Master::grand:
+      return "grand";
+    case Master::key:
+      return "key";
+    case Master::fill:
+      return "fill";
+    case Master::back:
+      return "back";
+    case Master::background:
+      return "background";
+  }
+  return "?";
+}
+
 std::string_view name_of(Limit limit) {
   switch (limit) {
     case Limit::most:

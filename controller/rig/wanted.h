@@ -14,12 +14,16 @@
 
 namespace chiaro::rig {
 
-/// Later entries win where they have a value: blackout (apart) > manual > cue > look > automatic >
-/// default (the levels of the last power-down where they were kept, else the studio file's).
-/// `cue` is the hand's own (cue_stack.h): the newest of cue and look is on stage, because a new
-/// look ends the cue. The brain leaves it empty.
-enum class Source : std::uint8_t { automatic, look, cue, manual };
-inline constexpr std::size_t kSources = 4;
+/// Later entries win where they have a value: blackout (apart) > own > manual > cue > look >
+/// automatic > default (the levels of the last power-down where they were kept, else the studio
+/// file's). `cue` and `own` are the hand's; the brain leaves them empty.
+///   cue: the hand's cue stack (cue_stack.h). The newest of cue and look is on stage, because a new
+///     look ends the cue.
+///   own: faders at the hand itself, of a control surface or `chiaro level`. The newest of own and
+///     manual has the say, because a new manual value takes the lamp's own away; and a new look
+///     takes all of them, as it takes the manual ones.
+enum class Source : std::uint8_t { automatic, look, cue, manual, own };
+inline constexpr std::size_t kSources = 5;
 
 /// What a person may mark a lamp with, for as long as the mark stands. Bits of a `Marks`.
 enum class Mark : std::uint8_t {
@@ -69,6 +73,7 @@ struct SourceState {
 
 enum class Master : std::uint8_t { grand, key, fill, back, background };
 inline constexpr std::size_t kMasters = 5;
+std::string_view name_of(Master master);
 
 /// One slot that a person raises to find out what it does: a lamp without a profile.
 struct TriedSlot {
@@ -84,9 +89,13 @@ struct Wanted {
   std::int64_t posted_ns = 0;  ///< monotonic clock of the post: the brain's age
   std::array<SourceState, kSources> sources;
   std::array<double, kMasters> masters{1, 1, 1, 1, 1};
+  /// A new id carries a new wish; a master may have been moved at the hand itself since.
+  std::array<std::uint64_t, kMasters> master_id{};
   bool blackout = false;          ///< as the brain's API wants it; latched by blackout_id
   std::uint64_t blackout_id = 0;  ///< a new id carries a new wish; the hand's own latch may differ
   std::vector<Marks> marks;       ///< by fixture; added to what was marked at the hand itself
+  /// By fixture: a new id lets the faders go that hold the lamp at the hand itself.
+  std::vector<std::uint64_t> release_id;
   bool blind = false;  ///< sources are prepared, not sent; on release they fade in by their ids
   /// Freezes every axis with the light held; stopping also disarms, so that releasing the stop
   /// moves nothing yet.
@@ -105,7 +114,8 @@ struct Sent {
   std::array<SourceState, kSources>
       sources;  ///< the sources as the hand holds them: a starting brain adopts them
   std::array<double, kMasters> masters{1, 1, 1, 1, 1};
-  std::array<std::uint64_t, kSources> fade_id{};  ///< in progress or last
+  std::array<std::uint64_t, kMasters> master_id{};  ///< the newest wishes of the brain's taken
+  std::array<std::uint64_t, kSources> fade_id{};    ///< in progress or last
   std::array<double, kSources> fade_progress{};   ///< 0..1
   Caution caution = Caution::normal;
   bool blackout = false;

@@ -159,7 +159,10 @@ void Brain::tick(ports::TimePoint now) {
 
 void Brain::hear(ports::TimePoint now) {
   if (auto report = link_->report()) {
-    if (sent_ && sent_->blackout != report->blackout) changed();
+    constexpr auto kOwn = static_cast<std::size_t>(rig::Source::own);
+    if (sent_ && (sent_->blackout != report->blackout || sent_->masters != report->masters ||
+                  sent_->sources[kOwn].fade_id != report->sources[kOwn].fade_id))
+      changed();
     sent_ = std::move(report);
   }
   const bool alive = link_->hand_alive(now);

@@ -21,6 +21,7 @@ bool set_by_hand(const studio::Fixture& fixture, core::Dof dof) {
 
 Console::Console(const studio::Studio& studio) : fixtures_(studio.fixtures.size()) {
   for (rig::SourceState& state : wanted_.sources) state.fixtures.resize(fixtures_);
+  wanted_.release_id.resize(fixtures_);
 }
 
 rig::SourceState& Console::source(rig::Source which) {
@@ -39,11 +40,14 @@ void Console::adopt(const rig::Wanted& hand) {
     newest_id_ = std::max(newest_id_, state.fade_id);
   }
   newest_id_ = std::max({newest_id_, wanted_.blackout_id, wanted_.motion_stop.id});
+  wanted_.release_id.assign(fixtures_, 0);
+  for (const std::uint64_t id : wanted_.master_id) newest_id_ = std::max(newest_id_, id);
 }
 
 void Console::carry_to(const studio::Studio& before, const studio::Studio& after) {
   fixtures_ = after.fixtures.size();
   wanted_.tried = {};  // a slot that was nobody's may be somebody's now
+  wanted_.release_id.assign(fixtures_, 0);
   for (rig::SourceState& state : wanted_.sources) {
     std::vector<core::FixtureState> carried(fixtures_);
     for (std::size_t i = 0; i < before.fixtures.size(); ++i)
@@ -97,6 +101,12 @@ void Console::release(std::size_t fixture, std::span<const core::Dof> dofs, port
   for (const core::Dof dof : dofs) manual.fixtures[fixture].clear(dof);
   manual.fade_id = next_id(now);
   manual.fade_s = kReleaseFade;
+  wanted_.release_id[fixture] = manual.fade_id;  // and what a fader at the hand holds
+}
+
+void Console::set_master(std::size_t master, double level, ports::TimePoint now) {
+  wanted_.masters[master] = level;
+  wanted_.master_id[master] = next_id(now);
 }
 
 void Console::try_slots(std::span<const rig::TriedSlot> slots, ports::TimePoint until) {

@@ -36,7 +36,7 @@ class Console {
   void hold(std::size_t fixture, const core::FixtureState& values, ports::TimePoint now);
   /// Gives faders back to the look, in a short fade.
   void release(std::size_t fixture, std::span<const core::Dof> dofs, ports::TimePoint now);
-  void set_master(std::size_t master, double level) { wanted_.masters[master] = level; }
+  void set_master(std::size_t master, double level, ports::TimePoint now);
   /// Raises slots that no lamp has (the hand sees to that), until then; none: lets them fall.
   void try_slots(std::span<const rig::TriedSlot> slots, ports::TimePoint until);
   /// The id to wait for in the hand's report.

@@ -35,7 +35,7 @@ void Brain::carry_out(const panel::SetFixture& set, const panel::Answer& answer)
 }
 
 void Brain::carry_out(const panel::SetMaster& set, const panel::Answer& answer) {
-  console_->set_master(set.master, set.level);
+  console_->set_master(set.master, set.level, world_.clock.now());
   changed();
   answer({});
 }

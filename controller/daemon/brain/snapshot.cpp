@@ -157,6 +157,9 @@ panel::FixtureView Brain::view_of(std::size_t index, const studio::Rig& rig) con
     view.patch = {patch->universe, patch->address, fixture.profile.modes[fixture.mode].footprint};
   if (view.sent.get(core::Dof::intensity) > 0) view.colour = colour_in_words(fixture, view.sent);
   view.manual = console_->held(index);
+  constexpr auto kOwn = static_cast<std::size_t>(rig::Source::own);
+  if (sent_ && index < sent_->sources[kOwn].fixtures.size())
+    view.manual.overlay(sent_->sources[kOwn].fixtures[index]);
   view.limits = fixture.ranges();
   view.locked = placements_->locked(index);
   view.controlled = fixture.controlled;
@@ -218,7 +221,9 @@ void Brain::renew_state() {
   s.motion_stopped = sent_ && sent_->motion_stop.on;
   s.motion_armed = sent_ && sent_->motion_armed.on;
   s.axes_waiting = sent_ ? sent_->axes_waiting : 0;
-  s.masters = console_->wanted().masters;
+  // A fader at the hand may have moved a master since it was set here.
+  const bool newest = hand_alive_ && sent_ && sent_->master_id == console_->wanted().master_id;
+  s.masters = newest ? sent_->masters : console_->wanted().masters;
   const studio::Rig rig = sent_rig();
   s.look = live_view(rig);
   s.design = job_ ? std::optional(job_->view) : std::nullopt;

@@ -4,6 +4,7 @@
 //
 //   status                              blackout on|off          reload    release
 //   motion stop|release|arm|disarm      mark KIND on|off LAMP    marks off
+//   level PERCENT|release LAMP          master NAME PERCENT          blind on|off
 //   cue go|back|off|list    cue to N    cue remove N
 //   cue record N [fade S] [follow S] [name WORDS]
 //
@@ -13,6 +14,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <poll.h>
 #include <string>
 
 #include "controller/daemon/output/hand.h"
@@ -42,6 +44,10 @@ class Answers {
   std::string motion(const std::string& word);
   std::string mark(const std::string& words);
   std::string unmark();
+  std::string level(const std::string& words);
+  std::string master(const std::string& words);
+  std::string blind(bool on);
+  std::string wish_for(const std::string& lamp, Wish wish);
   std::string cue(const std::string& words);
   std::string cue_list() const;
   std::string cue_moves(Wish::Kind kind, double number);
@@ -52,8 +58,15 @@ class Answers {
   std::string cue_now(const rig::Sent& sent) const;
   /// True when the loop has obeyed and its report of that is here.
   bool done(const Wish& wish);
+  /// The loop never waits for us, so we look, for a second at most.
   template <class Condition>
-  bool wait(Condition condition) const;
+  bool wait(Condition condition) const {
+    for (int i = 0; i < 1000 && !ending_; ++i) {
+      if (condition()) return true;
+      ::poll(nullptr, 0, 1);
+    }
+    return false;
+  }
 
   Hand& hand_;
   Housekeeper& housekeeper_;

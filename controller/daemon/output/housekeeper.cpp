@@ -37,7 +37,12 @@ rig::Held held_in(const rig::Sent& report) {
   held.motion_stop = report.motion_stop.on;
   held.marks = report.marks;
   held.own_marks = report.own_marks;
+  held.own = report.sources[static_cast<std::size_t>(rig::Source::own)].fixtures;
   held.fade_id = report.fade_id;
+  held.master_id = report.master_id;
+  held.blackout_id = report.blackout_id;
+  held.stop_id = report.motion_stop.id;
+  held.arm_id = report.motion_armed.id;
   if (report.cue.playing >= 0) held.cue = report.cue.number;
   return held;
 }
@@ -58,6 +63,10 @@ void Housekeeper::tick() {
   look_for_brain();
   read_report();
   tell_changes();
+  if (desk_ != nullptr) {
+    desk_->follow(studio_, report_);  // both are changed by this thread alone
+    say(desk_->take_problems());
+  }
   mend_ports();
   save_if_due();
   std::unique_lock lock(reload_mutex_);

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "controller/core/result.h"
+#include "controller/daemon/output/desk.h"
 #include "controller/daemon/output/hand.h"
 #include "controller/ports/world.h"
 
@@ -29,6 +30,8 @@ class Housekeeper {
   Housekeeper(Hand& hand, const std::filesystem::path& studio_file, const Show::Options& options,
               ports::World& world);
 
+  /// Control surfaces that follow what is being sent; before the first round. It outlives this.
+  void serve(Desk& desk) { desk_ = &desk; }
   /// One round; the caller sleeps until `kTick` later.
   void tick();
   /// No more waiting for the loop: it ends.
@@ -61,6 +64,7 @@ class Housekeeper {
   const std::filesystem::path studio_file_;
   const Show::Options options_;
   ports::World& world_;
+  Desk* desk_ = nullptr;
 
   std::uint64_t brain_box_ = 0;  ///< identity of the box that was last given or refused
   std::unique_ptr<BoxReader> report_reader_;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "controller/daemon/output/last_levels.h"
 
+#include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <sstream>
 
 #include "controller/core/hash.h"
@@ -49,6 +51,12 @@ bool flag(const Json& json, const char* name) {
   return value.is_boolean() && value.get<bool>();
 }
 
+void take_ids(const Json& json, const char* name, std::span<std::uint64_t> into) {
+  const Json ids = json.value(name, Json::array());
+  for (std::size_t i = 0; i < into.size() && i < ids.size(); ++i)
+    if (ids[i].is_number_unsigned()) into[i] = ids[i].get<std::uint64_t>();
+}
+
 rig::Held held_in(const Json& json, const studio::Studio& studio) {
   rig::Held held;
   held.blackout = flag(json, "blackout");
@@ -57,12 +65,18 @@ rig::Held held_in(const Json& json, const studio::Studio& studio) {
   const Json masters = json.value("masters", Json::array());
   for (std::size_t i = 0; i < held.masters.size() && i < masters.size(); ++i)
     if (masters[i].is_number()) held.masters[i] = masters[i].get<double>();
-  const Json ids = json.value("fade_ids", Json::array());
-  for (std::size_t i = 0; i < held.fade_id.size() && i < ids.size(); ++i)
-    if (ids[i].is_number_unsigned()) held.fade_id[i] = ids[i].get<std::uint64_t>();
+  take_ids(json, "fade_ids", held.fade_id);
+  take_ids(json, "master_ids", held.master_id);
+  std::array<std::uint64_t, 3> latches{};
+  take_ids(json, "latch_ids", latches);
+  held.blackout_id = latches[0];
+  held.stop_id = latches[1];
+  held.arm_id = latches[2];
   held.marks = marks_in(studio, json.value("marks", Json()));
   held.own_marks = marks_in(studio, json.value("own_marks", Json()));
   held.fixtures = states_of(studio, json["fixtures"]);
+  const Json own = json.value("own", Json());
+  if (own.is_object()) held.own = states_of(studio, own);
   return held;
 }
 
@@ -78,10 +92,13 @@ core::Result<core::Done> write_last_levels(const std::filesystem::path& file,
   json["motion_stop"] = held.motion_stop;
   json["masters"] = held.masters;
   json["fade_ids"] = held.fade_id;
+  json["master_ids"] = held.master_id;
+  json["latch_ids"] = {held.blackout_id, held.stop_id, held.arm_id};
   if (held.cue) json["cue"] = *held.cue;
   json["marks"] = marks_of(studio, held.marks);
   json["own_marks"] = marks_of(studio, held.own_marks);
   json["fixtures"] = json_of(studio, held.fixtures);
+  json["own"] = json_of(studio, held.own);
   json["checksum"] = checksum_of(json);
   return write_whole(file, json.dump(1) + "\n", kLevelGenerations, calls);
 }

@@ -15,6 +15,7 @@
 #include "controller/daemon/output/last_levels.h"
 #include "controller/daemon/output/real_time.h"
 #include "controller/daemon/output/service.h"
+#include "controller/daemon/output/surface_plan.h"
 #include "controller/studio/load.h"
 
 namespace chiaro::daemon {
@@ -76,6 +77,8 @@ Exit perform(std::unique_ptr<Show> first, const Arguments& arguments, const Show
   const studio::Studio studio = first->studio();
   Hand hand(std::move(first));
   Housekeeper housekeeper(hand, arguments.studio, options, world);
+  Desk desk(hand, *options.around, surface_plans, !arguments.no_real_time);
+  housekeeper.serve(desk);
   std::atomic<bool> release{false}, ended{false};
   auto control = Control::open(world.runtime_folder / "output.sock",
                                Answers(hand, housekeeper, release, world.state_folder),
@@ -149,10 +152,18 @@ Exit run_output(std::span<const std::string> words, ports::World& world) {
   std::vector<std::string> reversed(words.rbegin(), words.rend());  // CLI11 wants it so
   try {
     app.parse(reversed);
-    ports::World mine{world.clock,         world.network,      world.devices, world.in,
-                      world.out,           world.err,          world.err_is_terminal,
-                      world.config_folder, world.state_folder, world.runtime_folder,
-                      world.stop,          world.reload};
+    ports::World mine{world.clock,
+                      world.network,
+                      world.devices,
+                      world.in,
+                      world.out,
+                      world.err,
+                      world.err_is_terminal,
+                      world.config_folder,
+                      world.state_folder,
+                      world.runtime_folder,
+                      world.stop,
+                      world.reload};
     if (!arguments.state.empty()) mine.state_folder = arguments.state;
     return prepare_and_perform(arguments, mine);
   } catch (const CLI::ParseError& error) {

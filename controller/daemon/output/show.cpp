@@ -113,10 +113,24 @@ void Show::play(const rig::Cue* cue, ports::TimePoint now) {
   if (cue != nullptr) governor_.play(cue->state, cue->ahead, now);
 }
 
+void Show::obey_for(std::size_t fixture, const Wish& wish, ports::TimePoint now) {
+  if (wish.kind == Wish::Kind::mark) governor_.mark(fixture, wish.mark, wish.on, now);
+  if (wish.kind == Wish::Kind::level) governor_.set_level(fixture, wish.dof, wish.number, now);
+  if (wish.kind == Wish::Kind::release) governor_.release(fixture, now);
+}
+
+void Show::obey_for_those_meant(const Wish& wish, ports::TimePoint now) {
+  if (wish.studio != studio_.fingerprint) return;
+  if (wish.fixture != Wish::kEvery) return obey_for(wish.fixture, wish, now);
+  for (std::size_t i = 0; i < studio_.fixtures.size(); ++i) obey_for(i, wish, now);
+}
+
 void Show::obey(const Wish& wish, ports::TimePoint now) {
   switch (wish.kind) {
     case Wish::Kind::mark:
-      if (wish.studio == studio_.fingerprint) governor_.mark(wish.fixture, wish.mark, wish.on, now);
+    case Wish::Kind::level:
+    case Wish::Kind::release:
+      obey_for_those_meant(wish, now);
       break;
     case Wish::Kind::motion_stop:
       governor_.stop_motion(wish.on);
@@ -132,6 +146,12 @@ void Show::obey(const Wish& wish, ports::TimePoint now) {
       break;
     case Wish::Kind::cue_to:
       play(cues_.to(wish.number, now), now);
+      break;
+    case Wish::Kind::master:
+      governor_.set_master(wish.master, wish.number);
+      break;
+    case Wish::Kind::blind:
+      governor_.set_blind(wish.on);
       break;
     case Wish::Kind::cue_off:
       cues_.off();

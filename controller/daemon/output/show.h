@@ -77,6 +77,8 @@ class Show {
                 core::Problems& warnings);
   void recall_cues(std::unique_ptr<rig::CueList> list, const rig::Held* held);
   void play(const rig::Cue* cue, ports::TimePoint now);
+  void obey_for(std::size_t fixture, const Wish& wish, ports::TimePoint now);
+  void obey_for_those_meant(const Wish& wish, ports::TimePoint now);
   void hear(ports::TimePoint now);
   bool report_is_due(ports::TimePoint now) const;
 

@@ -161,5 +161,51 @@ TEST_F(Asked, GoesOnThroughAFullDiskAndSaysItOnce) {
   std::filesystem::remove(state());
 }
 
+TEST_F(Asked, SetsLevelsAndMastersWithoutABrainAndGivesThemBack) {
+  start();
+  EXPECT_EQ(ask("level 50 b lamp")["level"], 0.5);
+  EXPECT_EQ(slot(2), 128);
+  EXPECT_EQ(ask("master grand 50")["level"], 0.5);
+  EXPECT_EQ(slot(2), 64);
+  EXPECT_EQ(ask("status")["masters"]["grand"], 0.5);
+  EXPECT_EQ(ask("level release *")["released"], true);
+  run(1s);
+  EXPECT_EQ(slot(2), 0);
+  EXPECT_TRUE(refuses("level 101 a", "unknown level"));
+  EXPECT_TRUE(refuses("level 50 blamp", "did you mean 'b lamp'?"));
+  EXPECT_TRUE(refuses("master hair 50", "unknown master"));
+}
+
+TEST_F(Asked, KeepsWhatTheBrainSaysBackWhileItIsBlind) {
+  start();
+  brain_ = brain();
+  EXPECT_EQ(ask("blind on")["blind"], true);
+  look(1, 0, 1);
+  EXPECT_EQ(slot(1), 0);
+  EXPECT_EQ(ask("status")["blind"], true);
+  ask("blind off");
+  look(1, 0, 1);
+  EXPECT_EQ(slot(1), 255);
+}
+
+TEST_F(Asked, ComesBackFromAPowerCutWithItsOwnFadersThoughTheBrainSaysTheOldLook) {
+  start();
+  brain_ = brain();
+  look(1, 1, 1);
+  run(200ms);
+  ask("level 20 a");
+  EXPECT_EQ(ask("master grand 50")["level"], 0.5);
+  run(3s);
+  EXPECT_EQ(ask("status")["masters"]["grand"], 0.5);
+  EXPECT_EQ(slot(1), 26);  // 0.2 * 0.5 * 255 = 25.5
+  stop();
+  start();
+  look(1, 1, 1);
+  EXPECT_EQ(slot(1), 26);
+  look(1, 1, 1);
+  EXPECT_EQ(slot(1), 26);
+  EXPECT_EQ(slot(2), 128);
+}
+
 }  // namespace
 }  // namespace chiaro::daemon

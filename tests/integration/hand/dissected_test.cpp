@@ -67,7 +67,8 @@ TEST(SacnPackets, AreWholeAndRightToWireshark) {
   const support::TemporaryFolder folder;
   const auto file = folder.path() / "one.pcap";
   write_capture(file, packet);
-  const std::string read = "tshark -r " + file.string() + " --enable-heuristic acn -o acn.dmx_enable:TRUE ";
+  const std::string read =
+      "tshark -r " + file.string() + " --enable-heuristic acn -o acn.dmx_enable:TRUE ";
   const std::string whole = output_of(read + "-V 2>/dev/null");
   EXPECT_EQ(whole.find("Malformed"), std::string::npos) << whole;
   EXPECT_EQ(whole.find("Expert Info"), std::string::npos) << whole;

@@ -106,6 +106,11 @@ TEST_F(LastLevels, BringsBackEverythingThatItKeeps) {
   all.marks = {static_cast<rig::Marks>(rig::Mark::park) | static_cast<rig::Marks>(rig::Mark::solo)};
   all.own_marks = {static_cast<rig::Marks>(rig::Mark::solo)};
   all.fade_id = {1, 2, 3, 18446744073709551615ULL};
+  all.own = held(0.7).fixtures;
+  all.master_id = {5, 6, 7, 8, 9};
+  all.blackout_id = 10;
+  all.stop_id = 11;
+  all.arm_id = 12;
   all.cue = 2.5;
   ASSERT_TRUE(write_last_levels(file_, studio_, all));
   core::Problems warnings;
