@@ -13,6 +13,7 @@
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
+#include <utility>
 
 namespace chiaro::drivers {
 namespace {
@@ -135,7 +136,134 @@ core::Result<HttpReply> receive(int socket, const HttpUrl& url, const Patience& 
   }
 }
 
+/// Joins the chunks of a body as they come.
+class Unchunker {
+ public:
+  /// Takes what it can of `raw` and gives what of it is body.
+  std::string take(std::string& raw) {
+    std::string body;
+    while (!ended_) {
+      const std::size_t some = std::min(left_, raw.size());
+      body.append(raw, 0, some);
+      raw.erase(0, some);
+      left_ -= some;
+      if (left_ > 0) break;
+      const std::size_t skip = behind_ ? 2 : 0;  // each chunk ends with an empty line
+      const auto line = raw.find("\r\n", skip);
+      if (line == std::string::npos) {
+        ended_ = raw.size() > 64;
+        break;
+      }
+      std::size_t size = 0;
+      const auto read = std::from_chars(raw.data() + skip, raw.data() + line, size, 16);
+      ended_ = read.ec != std::errc() || size == 0 || size > kMostHttpBody;
+      raw.erase(0, line + 2);
+      left_ = ended_ ? 0 : size;
+      behind_ = true;
+    }
+    return body;
+  }
+  /// Its last chunk has come, or it is no chunked body at all.
+  bool ended() const { return ended_; }
+
+ private:
+  std::size_t left_ = 0;
+  bool behind_ = false, ended_ = false;
+};
+
+class OpenStream final : public HttpStream {
+ public:
+  OpenStream(std::unique_ptr<Socket> socket, const std::atomic<bool>* stop)
+      : socket_(std::move(socket)), stop_(stop) {}
+
+  /// Reads until the head is there.
+  core::Result<core::Done> read_head(const HttpUrl& url, const Patience& patience) {
+    constexpr std::size_t kMostHead = 65536;
+    while (raw_.find("\r\n\r\n") == std::string::npos) {
+      if (raw_.size() > kMostHead) return out_of_reach(url, "its answer is not HTTP");
+      if (!receive_some() || (!any_ && !patience.wait(socket_->get(), POLLIN)))
+        return out_of_reach(url, "no answer in time");
+    }
+    const auto blank = raw_.find("\r\n\r\n");
+    const std::string head = raw_.substr(0, blank + 4);
+    raw_.erase(0, blank + 4);
+    const auto parsed = parse_http_head(head);
+    if (!parsed) return parsed.problems();
+    status_ = parsed->status;
+    type_ = parsed->type;
+    length_ = parsed->length;
+    chunked_ = parsed->chunked;
+    return core::Done{};
+  }
+
+  int status() const override { return status_; }
+  const std::string& type() const override { return type_; }
+  std::optional<std::size_t> length() const override { return length_; }
+
+  std::optional<std::size_t> read(std::span<char> into, ports::Duration timeout) override {
+    if (const auto held = give(into); !held || *held > 0) return held;
+    if (!receive_some()) return std::nullopt;
+    if (!any_) {
+      const Patience patience{Clock::now() + timeout, stop_};
+      if (!patience.wait(socket_->get(), POLLIN)) return 0;
+      if (!receive_some()) return std::nullopt;
+    }
+    return give(into);
+  }
+
+ private:
+  std::optional<std::size_t> give(std::span<char> into) {
+    if (chunked_) {
+      body_ += unchunker_.take(raw_);
+      if (body_.empty() && unchunker_.ended()) return std::nullopt;
+    } else if (!raw_.empty()) {
+      body_ += std::exchange(raw_, {});
+    }
+    const std::size_t some = std::min(into.size(), body_.size());
+    std::copy_n(body_.begin(), some, into.begin());
+    body_.erase(0, some);
+    return some;
+  }
+  /// What waits at the socket; false when nothing ever will.
+  bool receive_some() {
+    std::array<char, 65536> bytes;
+    any_ = false;
+    const auto n = ::recv(socket_->get(), bytes.data(), bytes.size(), 0);
+    if (n < 0) return errno == EINTR || errno == EAGAIN || errno == EWOULDBLOCK;
+    if (n == 0) return false;
+    any_ = true;
+    raw_.append(bytes.data(), static_cast<std::size_t>(n));
+    return true;
+  }
+
+  std::unique_ptr<Socket> socket_;
+  const std::atomic<bool>* stop_;
+  std::string raw_, body_;
+  Unchunker unchunker_;
+  bool chunked_ = false, any_ = false;
+  int status_ = 0;
+  std::string type_;
+  std::optional<std::size_t> length_;
+};
+
 }  // namespace
+
+core::Result<std::unique_ptr<HttpStream>> open_http_stream(const std::string& address,
+                                                           ports::Duration timeout,
+                                                           const std::atomic<bool>* stop) {
+  const auto url = parse_http_url(address);
+  if (!url) return url.problems();
+  const Patience patience{Clock::now() + timeout, stop};
+  auto socket = connect(*url, patience);
+  if (!socket) return socket.problems();
+  HttpRequest request;
+  request.url = address;
+  if (!send_all((*socket)->get(), words_of(request, *url), patience))
+    return out_of_reach(*url, "the request could not be sent");
+  auto stream = std::make_unique<OpenStream>(std::move(*socket), stop);
+  if (const auto head = stream->read_head(*url, patience); !head) return head.problems();
+  return std::unique_ptr<HttpStream>(std::move(stream));
+}
 
 core::Result<HttpUrl> parse_http_url(const std::string& url) {
   const core::Problem wrong{{},

@@ -60,6 +60,20 @@ core::Result<bool> unchunk(std::string_view rest, std::string& body) {
 
 }  // namespace
 
+std::optional<std::size_t> http_content_length(std::string_view head) {
+  return number(header(head, "content-length"), 10);
+}
+
+core::Result<HttpHead> parse_http_head(std::string_view head) {
+  const auto status = head.substr(0, 5) == "HTTP/"
+                          ? number(head.substr(std::min<std::size_t>(head.size(), 9)), 10)
+                          : std::nullopt;
+  if (!status || *status < 100 || *status > 599) return broken("no status line");
+  return HttpHead{static_cast<int>(*status), std::string(header(head, "content-type")),
+                  number(header(head, "content-length"), 10),
+                  header(head, "transfer-encoding") == "chunked"};
+}
+
 core::Result<HttpReply> parse_http_reply(const std::string& bytes, bool closed) {
   const std::string_view all(bytes);
   const auto blank = all.find("\r\n\r\n");
@@ -69,22 +83,19 @@ core::Result<HttpReply> parse_http_reply(const std::string& bytes, bool closed) 
     return HttpReply{};
   }
   const auto head = all.substr(0, blank), rest = all.substr(blank + 4);
-  const auto status = head.substr(0, 5) == "HTTP/"
-                          ? number(head.substr(std::min<std::size_t>(head.size(), 9)), 10)
-                          : std::nullopt;
-  if (!status || *status < 100 || *status > 599) return broken("no status line");
-  HttpReply reply{static_cast<int>(*status), std::string(header(head, "content-type")), ""};
-  const auto length = number(header(head, "content-length"), 10);
+  const auto parsed = parse_http_head(head);
+  if (!parsed) return parsed.problems();
+  HttpReply reply{parsed->status, parsed->type, ""};
   bool whole = false;
-  if (header(head, "transfer-encoding") == "chunked") {
+  if (parsed->chunked) {
     const auto done = unchunk(rest, reply.body);
     if (!done) return done.problems();
     whole = *done;
-  } else if (length) {
-    whole = rest.size() >= *length;
-    reply.body = rest.substr(0, *length);
+  } else if (parsed->length) {
+    whole = rest.size() >= *parsed->length;
+    reply.body = rest.substr(0, *parsed->length);
   } else {
-    whole = closed || *status == 204 || *status == 304;
+    whole = closed || reply.status == 204 || reply.status == 304;
     reply.body = rest;
   }
   if (whole) return reply;
