@@ -12,8 +12,12 @@ namespace chiaro::drivers::usbpro {
 enum class Label : std::uint8_t {
   get_parameters = 3,
   set_parameters = 4,
+  received = 5,  ///< a status byte, 0 = whole, and what came from the start code on
   send_dmx = 6,
+  send_rdm = 7,
   get_serial = 10,
+  rdm_discovery = 11,
+  rdm_timeout = 12,  ///< nobody answered
   manufacturer = 77,
   device_name = 78,
   send_dmx_port_1 = 0x64,  ///< DMXking; its second port is the next number
