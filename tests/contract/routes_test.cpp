@@ -9,6 +9,13 @@
 #include "tests/support/fake_brain.h"
 
 namespace chiaro::panel {
+
+/// How a failing test names its route; found by the argument's namespace.
+void PrintTo(const Address& address, std::ostream* out);
+void PrintTo(const Address& address, std::ostream* out) {
+  *out << address.method << " " << address.path;
+}
+
 namespace {
 
 using Json = nlohmann::json;

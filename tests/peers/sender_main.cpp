@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One universe of known levels through one output driver, for others' receivers:
 // peer_sender DRIVER UNIVERSE INTERFACE [SECONDS]. Slot n carries (7 n + 3) modulo 256, n from 0.
+// For modbus INTERFACE is host:port: eight registers of two slots each, 0 to 10000.
 #include <cstdlib>
 #include <iostream>
 #include <string>
@@ -21,6 +22,16 @@ int main(int count, char** words) {
   settings.universe = static_cast<std::uint16_t>(std::atoi(words[2]));
   settings.interface = words[3];
   settings.cid.fill(7);
+  if (std::string(words[1]) == "modbus") {
+    const std::string where = words[3];
+    settings.line.host = where.substr(0, where.find(':'));
+    settings.line.port = static_cast<std::uint16_t>(std::atoi(where.c_str() + where.find(':') + 1));
+    for (std::uint16_t i = 0; i < 8; ++i)
+      settings.module.channels.push_back({.slot = static_cast<std::uint16_t>(2 * i),
+                                          .slots = 2,
+                                          .address = static_cast<std::uint16_t>(16 + i),
+                                          .to = 10000});
+  }
   auto port = drivers::make_output(words[1], settings, around);
   if (!port) return 1;
   if (const auto opened = (*port)->open(); !opened) {
