@@ -18,6 +18,7 @@
 #include "controller/ports/input.h"
 #include "controller/ports/output.h"
 #include "controller/ports/surface.h"
+#include "drivers/common/modbus_axis.h"
 #include "drivers/common/modbus_module.h"
 #include "drivers/common/surface_settings.h"
 #include "drivers/common/surroundings.h"
@@ -57,6 +58,7 @@ struct OutputSettings {
   // A device on a Modbus line.
   ports::ModbusLine line;
   modbus::ModuleSettings module;
+  std::vector<modbus::AxisSettings> axes;
   friend bool operator==(const OutputSettings&, const OutputSettings&) = default;
 };
 

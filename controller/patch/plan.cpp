@@ -74,6 +74,8 @@ Plan Plan::of(const studio::Studio& studio, core::Problems* warnings) {
   for (const auto& fixture : studio.fixtures)
     if (const auto* dmx = std::get_if<studio::DmxPatch>(&fixture.patch))
       plan.universes_.push_back(dmx->universe);
+  for (const auto& fixture : studio.fixtures)
+    if (const auto motor = fixture.far_motor()) plan.universes_.push_back(motor->patch.universe);
   std::sort(plan.universes_.begin(), plan.universes_.end());
   plan.universes_.erase(std::unique(plan.universes_.begin(), plan.universes_.end()),
                         plan.universes_.end());
@@ -81,6 +83,7 @@ Plan Plan::of(const studio::Studio& studio, core::Problems* warnings) {
     const auto& fixture = studio.fixtures[i];
     plan.curves_.push_back(fixture.curve);
     if (std::holds_alternative<studio::DmxPatch>(fixture.patch)) plan.add(fixture, i);
+    plan.add_far_motor(fixture, i);
     if (const auto* modbus = std::get_if<studio::ModbusPatch>(&fixture.patch);
         modbus != nullptr && warnings != nullptr)
       warnings->push_back({fixture.place,
@@ -102,16 +105,23 @@ void Plan::add(const studio::Fixture& fixture, std::size_t index) {
   no_dimmer_[index] = no_dimmer ? 1 : 0;
   const std::size_t from = slots_.size();
   for (const auto& channel : fixture.wired_channels()) {
-    Slot slot = slot_of(fixture, index, channel, no_dimmer);
+    Slot slot =
+        slot_of(fixture, index, channel, std::get<studio::DmxPatch>(fixture.patch), no_dimmer);
     if (*std::max_element(slot.at.begin(), slot.at.begin() + slot.bytes) < ports::kSlots)
       slots_.push_back(std::move(slot));
   }
   join_trims(from);
 }
 
+void Plan::add_far_motor(const studio::Fixture& fixture, std::size_t index) {
+  const auto motor = fixture.far_motor();
+  if (motor && motor->patch.address + motor->channel.bytes - 1 <= static_cast<int>(ports::kSlots))
+    slots_.push_back(slot_of(fixture, index, motor->channel, motor->patch, false));
+}
+
 Plan::Slot Plan::slot_of(const studio::Fixture& fixture, std::size_t index,
-                         const studio::Channel& channel, bool no_dimmer) const {
-  const auto& patch = std::get<studio::DmxPatch>(fixture.patch);
+                         const studio::Channel& channel, const studio::DmxPatch& patch,
+                         bool no_dimmer) const {
   Slot slot;
   slot.fixture = static_cast<std::uint32_t>(index);
   slot.universe = static_cast<std::uint32_t>(

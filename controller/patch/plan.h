@@ -80,7 +80,8 @@ class Plan {
   };
   void add(const studio::Fixture& fixture, std::size_t index);
   Slot slot_of(const studio::Fixture& fixture, std::size_t index, const studio::Channel& channel,
-               bool no_dimmer) const;
+               const studio::DmxPatch& patch, bool no_dimmer) const;
+  void add_far_motor(const studio::Fixture& fixture, std::size_t index);
   void join_trims(std::size_t from);
   static std::string law_in_words(const Slot& slot);
   double meaning(const Slot& slot, const core::FixtureState& state) const;

@@ -27,6 +27,27 @@ enum class PortHealth : std::uint8_t { closed, good, lost };
 struct PortReport {
   PortHealth health = PortHealth::closed;
   std::uint64_t frames_sent = 0, frames_failed = 0, reconnects = 0;
+  TimePoint left{};  ///< when the last frame began to leave, of a port that times the wire itself
+};
+
+/// How a motor behind a port stands, by its own word.
+struct AxisReport {
+  std::uint16_t slot = 0;  ///< 0-based, of the first of its two in the port's universe
+  double place = -1;       ///< 0..1 from end to end, beyond when it ran over; -1 = it does not say
+  double wanted = 0;       ///< what it is being told
+  bool moving = false, homed = false, fault = false;
+  bool heard = false;     ///< it answers
+  bool can_home = false;  ///< it knows how to find its home
+};
+/// What a person orders of motors, past the levels.
+struct AxisOrder {
+  enum class Kind : std::uint8_t {
+    stop,     ///< every motor of the port stands still, now
+    release,  ///< ends the stop; moves nothing
+    home      ///< the motor at `slot` looks for its home
+  };
+  Kind kind = Kind::stop;
+  std::uint16_t slot = 0;
 };
 
 /// One output port, used by one thread at a time. Of a port that never `blocks`, `send` is called
@@ -46,6 +67,10 @@ class OutputPort {
   /// Says goodbye where the protocol knows how (sACN: three terminated packets) and closes.
   virtual void release(TimePoint now) = 0;
   virtual PortReport report() const = 0;
+  /// Any thread; real-time. A port without motors has nothing to do.
+  virtual void order(const AxisOrder&) {}
+  /// Any thread.
+  virtual std::vector<AxisReport> axes() const { return {}; }
   /// True when `send` may wait for its device. The same for the life of the port.
   virtual bool blocks() const { return false; }
   /// True when bytes can reach real lamps: dry-run never opens such a port.

@@ -151,6 +151,8 @@ void Governor::set_blackout(bool on) { state_->blackout = on; }
 bool Governor::blackout() const { return state_->blackout; }
 void Governor::stop_motion(bool on) { state_->motion.stop(on); }
 void Governor::arm_motion(bool on) { state_->motion.arm(on); }
+bool Governor::motion_stopped() const { return state_->motion.stopped(); }
+bool Governor::motion_armed() const { return state_->motion.armed(); }
 Caution Governor::caution() const { return state_->caution; }
 void Governor::stand_on(const SourceState& cue) { state_->sources.stand_on(state_->lamps, cue); }
 bool Governor::cue_plays() const { return state_->sources.has_cue(); }
@@ -169,8 +171,7 @@ void Governor::set_level(std::size_t fixture, core::Dof dof, double value, TimeP
 
 void Governor::release(std::size_t fixture, TimePoint now) {
   State& s = *state_;
-  if (fixture < s.lamps.size())
-    s.sources.release_own(fixture, s.lamps, kReleaseFade, now, s.woken);
+  if (fixture < s.lamps.size()) s.sources.release_own(fixture, s.lamps, kReleaseFade, now, s.woken);
 }
 
 void Governor::mark(std::size_t fixture, Mark mark, bool on, TimePoint now) {

@@ -54,8 +54,8 @@ struct Held {
   std::array<double, kMasters> masters{1, 1, 1, 1, 1};
   bool blackout = false;
   bool motion_stop = false;
-  std::vector<Marks> marks, own_marks;            ///< by fixture index: all, and the hand's own
-  std::vector<core::FixtureState> own;            ///< by fixture index: faders at the hand
+  std::vector<Marks> marks, own_marks;  ///< by fixture index: all, and the hand's own
+  std::vector<core::FixtureState> own;  ///< by fixture index: faders at the hand
   /// Wishes of the brain's that were taken before: hearing of them again starts no fade, moves no
   /// master and releases no latch that has been thrown at the hand since.
   std::array<std::uint64_t, kSources> fade_id{};
@@ -93,6 +93,8 @@ class Governor {
   /// The hand's own motion stop and arming; latched like the blackout.
   void stop_motion(bool on);
   void arm_motion(bool on);
+  bool motion_stopped() const;
+  bool motion_armed() const;
   /// A fader at the hand itself: at once, and above everything but limits, caution and blackout,
   /// until a newer word of the brain's (see `Source`) or `release`. Clamped to the DOF's range; a
   /// DOF that the lamp does not have, and what is no number, is passed over.

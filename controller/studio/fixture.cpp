@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a fixture can do as it is fitted, patched and mounted.
 #include <algorithm>
-#include <cstdlib>
 
 #include "controller/studio/profiles/profiles.h"
 #include "controller/studio/studio.h"
@@ -61,25 +60,33 @@ void mount_axis(const PanTiltMount& head, Channel& channel) {
   }
 }
 
-/// The motor's channel, or nothing when the axis is a bus's.
-std::optional<Channel> motor(const std::string& axis, int bytes, Dof dof, core::Range range) {
-  constexpr std::string_view kChannel = "channel:";
-  if (axis.rfind(kChannel, 0) != 0) return std::nullopt;
+struct Motor {
+  AxisWire wire;
+  Dof dof = Dof::arc;
+  core::Range range;
+};
+std::optional<Motor> motor_of(const Mount& mount) {
+  std::optional<Motor> motor;
+  if (const auto* arc = std::get_if<ArcMount>(&mount)) motor = {arc->axis, Dof::arc, arc->angle};
+  if (const auto* track = std::get_if<TrackMount>(&mount))
+    motor = {track->axis, Dof::track, {0, 1}};
+  return motor && motor->wire.slot > 0 ? motor : std::nullopt;
+}
+
+Channel channel_of(const Motor& motor) {
   Channel channel;
-  channel.name = core::info(dof).name;
-  channel.dof = dof;
-  channel.bytes = bytes;
-  channel.offset = std::atoi(axis.c_str() + kChannel.size()) - 1;
-  channel.segments = {{0, 1, range.least, range.most, Segment::Law::continuous}};
+  channel.name = core::info(motor.dof).name;
+  channel.dof = motor.dof;
+  channel.bytes = motor.wire.bytes;
+  channel.offset = motor.wire.universe == 0 ? motor.wire.slot - 1 : 0;
+  channel.segments = {{0, 1, motor.range.least, motor.range.most, Segment::Law::continuous}};
   return channel;
 }
 
-std::optional<Channel> motor_of(const Mount& mount) {
-  if (const auto* arc = std::get_if<ArcMount>(&mount))
-    return motor(arc->axis, arc->axis_bytes, Dof::arc, arc->angle);
-  if (const auto* track = std::get_if<TrackMount>(&mount))
-    return motor(track->axis, track->axis_bytes, Dof::track, {0, 1});
-  return std::nullopt;
+/// A motor on the lamp's own patch.
+std::optional<Channel> near_motor(const Mount& mount) {
+  const auto motor = motor_of(mount);
+  return motor && motor->wire.universe == 0 ? std::optional(channel_of(*motor)) : std::nullopt;
 }
 
 /// What the head can reach of the mount's range; nothing when no channel moves it.
@@ -141,13 +148,20 @@ std::vector<Channel> Fixture::wired_channels() const {
   if (const auto* head = std::get_if<PanTiltMount>(&mount))
     for (Channel& channel : channels)
       if (channel.dof == Dof::pan || channel.dof == Dof::tilt) mount_axis(*head, channel);
-  if (auto channel = motor_of(mount)) channels.push_back(std::move(*channel));
+  if (auto channel = near_motor(mount)) channels.push_back(std::move(*channel));
   return channels;
+}
+
+std::optional<Fixture::FarMotor> Fixture::far_motor() const {
+  const auto motor = motor_of(mount);
+  if (!motor || motor->wire.universe == 0) return std::nullopt;
+  return FarMotor{channel_of(*motor),
+                  {motor->wire.universe, static_cast<std::uint16_t>(motor->wire.slot)}};
 }
 
 int Fixture::footprint() const {
   int slots = mode < profile.modes.size() ? std::max(1, profile.modes[mode].footprint) : 1;
-  if (const auto channel = motor_of(mount))
+  if (const auto channel = near_motor(mount))
     slots = std::max(slots, channel->offset + channel->bytes);
   return slots;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "controller/core/hash.h"
 #include "controller/studio/reading/files.h"
 #include "controller/studio/reading/scalars.h"
 #include "controller/studio/reading/section.h"
@@ -54,6 +55,81 @@ void read_channels(const Tree& tree, RegisterMap& map, Report& report) {
                  "use a lower register or fewer of them");
 }
 
+/// {register: 20, write: 1}: a command to the motor. -1 when absent.
+void read_order(const Tree* tree, int& address, int& value, Report& report) {
+  if (tree == nullptr) return;
+  Section section(*tree, "an order to a motor", report);
+  into(address, whole(section.need("register", "20"), 0, 65535, report));
+  into(value, whole(section.find("write"), 0, 65535, report));
+  section.refuse_unknown();
+}
+
+void read_status(const Tree* tree, RegisterAxis& axis, Report& report) {
+  if (tree == nullptr) return;
+  Section section(*tree, "a motor's flags", report);
+  into(axis.status, whole(section.need("register", "12"), 0, 65535, report));
+  into(axis.status_is_input, yes_or_no(section.find("input"), report));
+  into(axis.moving_bit, whole(section.find("moving"), 0, 15, report));
+  into(axis.homed_bit, whole(section.find("homed"), 0, 15, report));
+  into(axis.fault_bit, whole(section.find("fault"), 0, 15, report));
+  section.refuse_unknown();
+}
+
+void read_target(const Tree* tree, RegisterAxis& axis, Report& report) {
+  if (tree == nullptr) return;
+  Section section(*tree, "where a motor is sent", report);
+  into(axis.target, whole(section.need("register", "0"), 0, 65535, report));
+  into(axis.words, whole(section.find("words"), 1, 2, report));
+  into(axis.low_word_first,
+       choice<bool>(section.find("order"), {{"high_first", false}, {"low_first", true}}, report));
+  const core::Range most =
+      axis.words == 2 ? core::Range{-2147483648.0, 4294967295.0} : core::Range{-32768, 65535};
+  if (const auto ends = numbers(section.need("means", "[0, 16000]"), 2, most,
+                                "[value at one end, value at the other]", report)) {
+    axis.from = (*ends)[0];
+    axis.to = (*ends)[1];
+    if (axis.from == axis.to)
+      report.error(*tree, "both ends of the axis are the same value", "means: [0, 16000]");
+  }
+  section.refuse_unknown();
+}
+
+/// A motor: two slots of the device's universe, a position from end to end.
+void read_axis(const Tree& tree, RegisterMap& map, Report& report) {
+  Section section(tree, "an axis", report);
+  RegisterAxis axis;
+  into(axis.name, text(section.find("name"), report));
+  read_target(section.need("target", "{register: 0, means: [0, 16000]}"), axis, report);
+  if (const Tree* actual = section.find("actual")) {
+    Section where(*actual, "where a motor is", report);
+    into(axis.actual, whole(where.need("register", "10"), 0, 65535, report));
+    into(axis.actual_is_input, yes_or_no(where.find("input"), report));
+    where.refuse_unknown();
+  }
+  read_status(section.find("status"), axis, report);
+  read_order(section.find("home"), axis.home, axis.home_value, report);
+  read_order(section.find("stop"), axis.stop, axis.stop_value, report);
+  section.refuse_unknown();
+  axis.slot = map.slots;
+  map.slots += 2;
+  map.axes.push_back(std::move(axis));
+}
+
+void read_axes(const Tree* axes, RegisterMap& map, Report& report) {
+  if (axes == nullptr) return;
+  if (axes->kind != Tree::Kind::sequence)
+    return report.error(*axes, "'axes' needs a list", "- {target: {register: 0, means: [0, 100]}}");
+  for (const Tree& one : axes->items) read_axis(one, map, report);
+  for (const RegisterAxis& a : map.axes)
+    for (const RegisterChannel& c : map.channels)
+      if (a.target < c.address + c.words && c.address < a.target + a.words)
+        report.error(*axes, "register " + std::to_string(a.target) + " is used twice",
+                     "each axis and channel needs registers of its own");
+  if (map.slots > 512)
+    report.error(*axes, "the device would need " + std::to_string(map.slots) + " slots",
+                 "a universe has 512");
+}
+
 void check_overlaps(RegisterMap& map, const Tree& tree, Report& report) {
   auto& channels = map.channels;
   std::stable_sort(channels.begin(), channels.end(),
@@ -83,12 +159,16 @@ RegisterMap read_map(const Tree& tree, const std::string& name, Report& report) 
   into(map.gap_s, quantity(section.find("gap"), Measure::duration, {0, 5}, report));
   into(map.single_writes,
        choice<bool>(section.find("write"), {{"many", false}, {"single", true}}, report));
-  const Tree* channels = section.need("channels", "[{register: 0, means: [0, 10000]}]");
+  const Tree* axes = section.find("axes");
+  const Tree* channels = axes != nullptr
+                             ? section.find("channels")
+                             : section.need("channels", "[{register: 0, means: [0, 10000]}]");
   if (channels != nullptr && channels->kind != Tree::Kind::sequence)
     report.error(*channels, "'channels' needs a list", "- {register: 0, means: [0, 10000]}");
   else if (channels != nullptr)
     for (const Tree& one : channels->items) read_channels(one, map, report);
   if (channels != nullptr) check_overlaps(map, *channels, report);
+  read_axes(axes, map, report);
   section.refuse_unknown();
   return map;
 }
@@ -110,6 +190,7 @@ core::Result<RegisterMap> parse_register_map(const std::string& yaml, const std:
   report.add(document->problems);
   RegisterMap map = read_map(document->root, name, report);
   if (report.any_error()) return report.sorted();
+  map.fingerprint = core::Fingerprint().add(yaml).value();
   return map;
 }
 

@@ -24,13 +24,33 @@ struct RegisterChannel {
   friend bool operator==(const RegisterChannel&, const RegisterChannel&) = default;
 };
 
+/// A motor behind registers: where it shall be, where it is, and what else it can be told.
+struct RegisterAxis {
+  std::string name;
+  int slot = 0;    ///< 0-based within the device's own slots; two of them, a 16-bit position
+  int target = 0;  ///< as on the wire: counts from 0
+  int words = 1;
+  bool low_word_first = false;
+  double from = 0, to = 65535;   ///< the registers' value at both ends; below 0: two's complement
+  int actual = -1;               ///< where it is, in the same measure; -1 = it does not say
+  bool actual_is_input = false;  ///< an input register, else a holding register
+  int status = -1;               ///< a register of flags; -1 = none
+  bool status_is_input = false;
+  int moving_bit = -1, homed_bit = -1, fault_bit = -1;
+  int home = -1, home_value = 1;  ///< the register that starts homing; -1 = none
+  int stop = -1, stop_value = 1;  ///< and the one that stops the motor
+  friend bool operator==(const RegisterAxis&, const RegisterAxis&) = default;
+};
+
 struct RegisterMap {
   std::string name;  ///< "waveshare/analog-output-8ch"
   std::string maker, device;
   double timeout_s = 0.5, gap_s = 0;
   bool single_writes = false;
   std::vector<RegisterChannel> channels;  ///< by address
+  std::vector<RegisterAxis> axes;
   int slots = 0;
+  std::uint64_t fingerprint = 0;  ///< of the text
   friend bool operator==(const RegisterMap&, const RegisterMap&) = default;
 };
 

@@ -19,6 +19,7 @@
 #include "controller/core/units.h"
 #include "controller/studio/profile.h"
 #include "controller/studio/register_map.h"
+#include "controller/studio/surface_map.h"
 
 namespace chiaro::studio {
 
@@ -88,6 +89,12 @@ struct StandMount {
   core::Spherical at;  ///< where it stands now ("placed")
   Region region;
 };
+/// Where an axis is on the wire: slots that carry its whole range, most significant first.
+struct AxisWire {
+  std::uint16_t universe = 0;  ///< 0 = the lamp's own patch; else of a motor with its own address
+  int slot = 0;                ///< 1.. within the lamp's patch, else 1..512; 0 = no wire
+  int bytes = 1;
+};
 /// Motorised along a circle about `centre` in a plane; the lamp aims at the subject.
 struct ArcMount {
   core::Vec3 centre;
@@ -95,14 +102,12 @@ struct ArcMount {
   core::Range angle;  ///< radians
   double at = 0;
   bool vertical = false;  ///< else horizontal
-  std::string axis;       ///< "channel:N" or "bus:register"
-  int axis_bytes = 1;     ///< of a channel
+  AxisWire axis;
 };
 struct TrackMount {
   core::Vec3 from, to;
   double at = 0;  ///< 0..1 along it
-  std::string axis;
-  int axis_bytes = 1;
+  AxisWire axis;
 };
 /// A yoke with its pan axis upright. The DOFs pan and tilt count from the neutral aim: pan to the
 /// left seen from above, tilt upwards, through the pole and on.
@@ -187,8 +192,15 @@ struct Fixture {
   std::vector<std::pair<core::Dof, core::Range>> ranges() const;
   /// The channels of the patched mode as they act on this lamp as it is mounted: a head's pan and
   /// tilt in the mount's angles, and the channel of an arc's or a track's motor after the mode's
-  /// own. What encodes, decodes and counts slots goes by these.
+  /// own. What encodes, decodes and counts slots goes by these. A motor with an address of its own
+  /// is `far_motor`'s.
   std::vector<Channel> wired_channels() const;
+  /// The channel of a motor that is patched apart from its lamp, offset 0 at that address.
+  struct FarMotor {
+    Channel channel;
+    DmxPatch patch;
+  };
+  std::optional<FarMotor> far_motor() const;
   /// Slots from the address on, the motor's included; at least 1.
   int footprint() const;
 };
@@ -266,6 +278,18 @@ struct Bus {
   int stop_bits = 1;
 };
 
+/// Buttons, faders and lamps that people use; the output process listens to them.
+struct Surface {
+  std::string name;
+  std::string driver;     ///< "gpio", "hid", "midi", "osc" or "mock"
+  DeviceName device{};    ///< HID
+  std::string midi_name;  ///< part of it
+  std::string interface;  ///< OSC
+  std::uint16_t port = 9000;
+  SurfaceMap map;
+  core::Place place;
+};
+
 /// Lamps behind one fuse, and what it bears.
 struct Circuit {
   std::string name;
@@ -299,7 +323,7 @@ struct Safety {
 struct Studio {
   std::string name;
   std::filesystem::path file;
-  std::uint64_t fingerprint = 0;  ///< of the file's and its profiles' content
+  std::uint64_t fingerprint = 0;  ///< of the content of the file, its profiles and its maps
   std::vector<Subject> subjects;
   std::vector<BackgroundPlane> background;
   std::optional<double> ceiling;  ///< metres
@@ -309,6 +333,7 @@ struct Studio {
   std::vector<Bus> buses;
   std::vector<Circuit> circuits;
   std::vector<KeepOut> keep_out;
+  std::vector<Surface> surfaces;
   Exposure exposure;
   std::optional<Ambient> ambient;
   Safety safety;
@@ -317,6 +342,10 @@ struct Studio {
   const Fixture* fixture(std::string_view name) const;
   std::optional<std::size_t> fixture_index(std::string_view name) const;
 };
+
+/// What its surfaces may ask of the brain (looks, moods, nudges), in the order of the file: brain
+/// and output process count them alike.
+std::vector<Deed> asked_of_brain(const Studio& studio);
 
 /// A value for every DOF of the studio; states[i] belongs to studio.fixtures[i].
 struct Rig {

@@ -31,6 +31,29 @@ ports::ModbusLine line_of(const studio::Bus& bus) {
   return line;
 }
 
+/// As the map says; unit, patience and pace are the module's and the lamp's.
+drivers::modbus::AxisSettings axis_in(const studio::RegisterAxis& axis) {
+  drivers::modbus::AxisSettings settings;
+  settings.slot = static_cast<std::uint16_t>(axis.slot);
+  settings.target = static_cast<std::uint16_t>(axis.target);
+  settings.words = static_cast<std::uint8_t>(axis.words);
+  settings.low_word_first = axis.low_word_first;
+  settings.from = axis.from;
+  settings.to = axis.to;
+  settings.actual = axis.actual;
+  settings.actual_is_input = axis.actual_is_input;
+  settings.status = axis.status;
+  settings.status_is_input = axis.status_is_input;
+  settings.moving_bit = axis.moving_bit;
+  settings.homed_bit = axis.homed_bit;
+  settings.fault_bit = axis.fault_bit;
+  settings.home = axis.home;
+  settings.stop = axis.stop;
+  settings.home_value = static_cast<std::uint16_t>(axis.home_value);
+  settings.stop_value = static_cast<std::uint16_t>(axis.stop_value);
+  return settings;
+}
+
 /// Fills in what each kind of output says of itself.
 struct Filler {
   const studio::Studio& studio;
@@ -89,6 +112,19 @@ struct Filler {
            channel.low_word_first, channel.from, channel.to,
            channel.dali ? drivers::modbus::Channel::Law::dali
                         : drivers::modbus::Channel::Law::linear});
+    for (const auto& axis : modbus.map.axes) settings.axes.push_back(axis_of(axis));
+  }
+  drivers::modbus::AxisSettings axis_of(const studio::RegisterAxis& axis) const {
+    auto motor = axis_in(axis);
+    motor.unit = settings.module.unit;
+    motor.timeout = settings.module.timeout;
+    motor.least_gap = settings.module.least_gap;
+    for (const auto& fixture : studio.fixtures)
+      if (const auto far = fixture.far_motor(); far &&
+                                                far->patch.universe == plan.settings.universe &&
+                                                far->patch.address == axis.slot + 1)
+        motor.end_to_end_s = fixture.limits.end_to_end_s;
+    return motor;
   }
   void operator()(const studio::OlaOutput& ola) {
     plan.driver = "ola";

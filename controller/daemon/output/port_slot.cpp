@@ -11,12 +11,13 @@ PortSlot::PortSlot(std::string driver, drivers::OutputSettings settings,
     : driver_(std::move(driver)), settings_(std::move(settings)), port_(std::move(port)) {
   set_rate(rate_hz);
   health_ = port_->report().health;
-  if (port_->blocks()) writer_ = std::make_unique<PortWriter>(*port_, clock, real_time);
+  if (port_->blocks()) writer_ = std::make_unique<PortWriter>(*port_, clock, period_, real_time);
 }
 
 void PortSlot::set_rate(double rate_hz) {
   rate_hz_ = rate_hz;
   period_ = ports::Duration(std::llround(1e9 / rate_hz));
+  if (writer_) writer_->set_period(period_);
 }
 
 bool PortSlot::away() {
@@ -80,6 +81,11 @@ void PortSlot::report(rig::Sent::Port& into) const {
   into.jitter_us_p50 = p50_;
   into.jitter_us_p99 = p99_;
   into.jitter_us_p999 = p999_;
+  if (const auto wire = writer_ ? writer_->jitter_us() : std::nullopt) {
+    into.jitter_us_p50 = (*wire)[0];
+    into.jitter_us_p99 = (*wire)[1];
+    into.jitter_us_p999 = (*wire)[2];
+  }
   into.health = static_cast<std::uint8_t>(health());
   if (lending_.load(std::memory_order_acquire) != Lending::at_work) return;
   const ports::PortReport report = writer_ ? writer_->report() : port_->report();

@@ -7,8 +7,9 @@
 
 namespace chiaro::daemon {
 
-PortWriter::PortWriter(ports::OutputPort& port, ports::Clock& clock, bool real_time)
-    : port_(port), clock_(clock) {
+PortWriter::PortWriter(ports::OutputPort& port, ports::Clock& clock, ports::Duration period,
+                       bool real_time)
+    : port_(port), clock_(clock), period_(period) {
   wake();
   thread_ = std::thread([this, real_time] {
     if (real_time) take_turn_below_loop();
@@ -50,11 +51,37 @@ void PortWriter::publish() {
   sent_.store(report.frames_sent, std::memory_order_relaxed);
   failed_.store(report.frames_failed, std::memory_order_relaxed);
   reconnects_.store(report.reconnects, std::memory_order_relaxed);
+  measure(report.left);
+}
+
+void PortWriter::measure(ports::TimePoint left) {
+  if (left == left_) return;
+  const bool first = left_ == ports::TimePoint{};
+  const ports::Duration gap = left - std::exchange(left_, left);
+  if (first) return;
+  jitter_.add(gap - period_.load(std::memory_order_relaxed));
+  constexpr std::uint64_t kEvery = 32;  // counting costs
+  if (jitter_.total() % kEvery != 1) return;
+  constexpr std::array kShares{0.5, 0.99, 0.999};
+  for (std::size_t i = 0; i < kShares.size(); ++i)
+    jitter_us_[i].store(jitter_.microseconds(kShares[i]), std::memory_order_relaxed);
+  measured_.store(true, std::memory_order_release);
+}
+
+std::optional<std::array<double, 3>> PortWriter::jitter_us() const {
+  if (!measured_.load(std::memory_order_acquire)) return std::nullopt;
+  std::array<double, 3> all{};
+  for (std::size_t i = 0; i < all.size(); ++i)
+    all[i] = jitter_us_[i].load(std::memory_order_relaxed);
+  return all;
 }
 
 ports::PortReport PortWriter::report() const {
-  return {health_.load(std::memory_order_acquire), sent_.load(std::memory_order_relaxed),
-          failed_.load(std::memory_order_relaxed), reconnects_.load(std::memory_order_relaxed)};
+  return {health_.load(std::memory_order_acquire),
+          sent_.load(std::memory_order_relaxed),
+          failed_.load(std::memory_order_relaxed),
+          reconnects_.load(std::memory_order_relaxed),
+          {}};
 }
 
 core::Problems PortWriter::take_problems() {

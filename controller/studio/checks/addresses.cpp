@@ -48,6 +48,9 @@ std::vector<Claim> claims(const Studio& studio) {
     else if (const auto* bus = std::get_if<ModbusPatch>(&fixture.patch))
       all.push_back({&fixture, "bus " + in_quotes(bus->bus), bus->register_number,
                      bus->register_number + length - 1, false});
+    if (const auto motor = fixture.far_motor())
+      all.push_back({&fixture, "universe " + std::to_string(motor->patch.universe),
+                     motor->patch.address, motor->patch.address + motor->channel.bytes - 1, true});
   }
   return all;
 }

@@ -10,14 +10,18 @@ void check_outputs(const Studio& studio, reading::Report& report) {
   std::set<std::uint16_t> wired, used;
   for (const Output& output : studio.outputs) wired.insert(output.universe);
   for (const Fixture& fixture : studio.fixtures) {
-    const auto* dmx = std::get_if<DmxPatch>(&fixture.patch);
-    if (dmx == nullptr || !used.insert(dmx->universe).second) continue;
-    const std::string number = std::to_string(dmx->universe);
-    if (!wired.contains(dmx->universe))
-      report.add({fixture.patch_place,
-                  reading::in_quotes(fixture.name) + " is patched to universe " + number +
+    const auto use = [&](std::uint16_t universe, const core::Place& place, const char* what) {
+      if (!used.insert(universe).second || wired.contains(universe)) return;
+      const std::string number = std::to_string(universe);
+      report.add({place,
+                  what + reading::in_quotes(fixture.name) + " is patched to universe " + number +
                       ", which has no output",
                   "add outputs: {universe " + number + ": {sacn: {interface: eth0}}}", false});
+    };
+    if (const auto* dmx = std::get_if<DmxPatch>(&fixture.patch))
+      use(dmx->universe, fixture.patch_place, "");
+    if (const auto motor = fixture.far_motor())
+      use(motor->patch.universe, fixture.place, "the motor of ");
   }
   for (const Output& output : studio.outputs)
     if (!used.contains(output.universe))

@@ -124,8 +124,7 @@ Fixture read_fixture(const Tree::Key& key, const Tree& tree, Context& context,
   if (const auto cd = quantity(section.find("output"), Measure::intensity, {0.1, 1e8}, report))
     fixture.output = {*cd};
   fixture.modifiers = read_modifiers(section.find("modifiers"), context);
-  fixture.mount =
-      read_mount(section.need("mount", "{fixed: {at: […], aim_at: […]}}"), studio, context);
+  fixture.mount = read_mount(section.need("mount", "{fixed: {at: […], aim_at: […]}}"), context);
   const Tree* patch = section.find("patch");
   fixture.patch = read_patch(patch, studio, context);
   fixture.patch_place = patch != nullptr ? report.place(*patch) : fixture.place;

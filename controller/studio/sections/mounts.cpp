@@ -125,31 +125,37 @@ Mount read_virtual(const Tree* tree, Report& report) {
   return mount;
 }
 
-/// axis: {channel: 3, bits: 16} of the lamp's own patch, or {modbus: BUS, register: N}.
-std::string read_axis(const Tree* tree, const Studio& studio, int& bytes, Context& context) {
-  if (tree == nullptr) return "";
+/// axis: {channel: 3} of the lamp's own patch, or {universe: 9, address: 1} of a motor's own.
+AxisWire read_axis(const Tree* tree, Context& context) {
+  AxisWire axis;
+  if (tree == nullptr) return axis;
   Report& report = context.report;
   Section section(*tree, "an axis", report);
   const Tree* channel = section.find("channel");
+  const Tree* universe = section.find("universe");
   const Tree* bus = section.find("modbus");
-  std::string axis;
-  if (section.valid() && (channel == nullptr) == (bus == nullptr))
-    report.error(*tree, "an axis needs either a channel or a register",
-                 "{channel: 3} counts in the lamp's patch, or {modbus: BUS, register: 40}");
-  if (channel != nullptr) {
-    into(bytes, choice<int>(section.find("bits"), {{"8", 1}, {"16", 2}}, report));
-    if (const auto n = whole(channel, 1, 512, report)) axis = "channel:" + std::to_string(*n);
-  } else if (bus != nullptr) {
-    const auto name = text(bus, report);
-    const auto reg = whole(section.need("register", "40"), 0, 65535, report);
-    if (name && bus_exists(*bus, *name, studio, context) && reg)
-      axis = *name + ":" + std::to_string(*reg);
+  const Tree* bits = section.find("bits");
+  into(axis.bytes, choice<int>(bits, {{"8", 1}, {"16", 2}}, report));
+  if (bus != nullptr) {
+    (void)section.find("register");
+    report.error(*tree, "a motor on a bus is reached through a universe of its own",
+                 "outputs: {universe 9: {modbus: {bus: …, unit: 1, map: generic/positioner}}}, "
+                 "and here axis: {universe: 9, address: 1}");
+  } else if (section.valid() && (channel == nullptr) == (universe == nullptr)) {
+    report.error(*tree, "an axis needs either a channel or an address of its own",
+                 "{channel: 3} counts in the lamp's patch, or {universe: 9, address: 1}");
+  } else if (channel != nullptr) {
+    into(axis.slot, whole(channel, 1, 512, report));
+  } else if (universe != nullptr) {
+    if (bits == nullptr) axis.bytes = 2;
+    into(axis.universe, whole(universe, 1, 63999, report));
+    into(axis.slot, whole(section.need("address", "1"), 1, 513 - axis.bytes, report));
   }
   section.refuse_unknown();
   return axis;
 }
 
-Mount read_arc(const Tree& tree, const Studio& studio, Context& context) {
+Mount read_arc(const Tree& tree, Context& context) {
   Report& report = context.report;
   Section section(tree, "an arc", report);
   ArcMount arc;
@@ -166,12 +172,12 @@ Mount read_arc(const Tree& tree, const Studio& studio, Context& context) {
     report.error(*at_tree, "the lamp stands outside its own arc", "move 'at', or widen 'angle'");
   into(arc.vertical,
        choice<bool>(section.find("plane"), {{"horizontal", false}, {"vertical", true}}, report));
-  arc.axis = read_axis(section.need("axis", "{channel: 3}"), studio, arc.axis_bytes, context);
+  arc.axis = read_axis(section.need("axis", "{channel: 3}"), context);
   section.refuse_unknown();
   return arc;
 }
 
-Mount read_track(const Tree& tree, const Studio& studio, Context& context) {
+Mount read_track(const Tree& tree, Context& context) {
   Report& report = context.report;
   Section section(tree, "a track", report);
   TrackMount track;
@@ -182,15 +188,14 @@ Mount read_track(const Tree& tree, const Studio& studio, Context& context) {
   if (from && to && core::distance(*from, *to) < 1e-3)
     report.error(tree, "the track has no length", "move 'from' or 'to'");
   into(track.at, fraction(section.need("at", "50 %"), report));
-  track.axis =
-      read_axis(section.need("axis", "{channel: 3}"), studio, track.axis_bytes, context);
+  track.axis = read_axis(section.need("axis", "{channel: 3}"), context);
   section.refuse_unknown();
   return track;
 }
 
 }  // namespace
 
-Mount read_mount(const Tree* tree, const Studio& studio, Context& context) {
+Mount read_mount(const Tree* tree, Context& context) {
   Report& report = context.report;
   const std::vector<std::string> names{"fixed", "stand", "arc", "track", "pan_tilt", "virtual"};
   const auto kind = variant(tree, "a kind of mount", names, report);
@@ -207,9 +212,9 @@ Mount read_mount(const Tree* tree, const Studio& studio, Context& context) {
     case 1:
       return read_stand(*kind->body, report);
     case 2:
-      return read_arc(*kind->body, studio, context);
+      return read_arc(*kind->body, context);
     case 3:
-      return read_track(*kind->body, studio, context);
+      return read_track(*kind->body, context);
     default:
       return read_pan_tilt(*kind->body, report);
   }

@@ -32,8 +32,8 @@ class OpenDmxPort final : public ports::OutputPort {
   void send(const ports::DmxFrame& frame, ports::TimePoint) override {
     if (!line_) return;
     // The chip's buffer must be empty first: a break would cut the last slots off.
-    if (wait_for_the_wire() && line_->set_break(true) && pause(settings_.break_us) &&
-        line_->set_break(false) && pause(settings_.mab_us) && write(frame)) {
+    if (wait_for_the_wire() && begin() && pause(settings_.break_us) && line_->set_break(false) &&
+        pause(settings_.mab_us) && write(frame)) {
       ++report_.frames_sent;
       return;
     }
@@ -58,6 +58,10 @@ class OpenDmxPort final : public ports::OutputPort {
     // "Empty" is what the chip said a latency ago; the wire itself needs so long for a frame.
     if (around_.clock.now() < wire_free_) around_.clock.sleep_until(wire_free_);
     return true;
+  }
+  bool begin() {
+    report_.left = around_.clock.now();
+    return line_->set_break(true);
   }
   bool pause(int us) {
     around_.clock.sleep_until(around_.clock.now() + std::chrono::microseconds(us));

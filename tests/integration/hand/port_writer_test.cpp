@@ -122,6 +122,46 @@ TEST(BlockingPortThatIsNotThere, SaysSoOnceAndNotAtEveryAttempt) {
   EXPECT_EQ(slot.health(), ports::PortHealth::lost);
 }
 
+/// Its frames leave 23 and 27 ms apart by turns, whatever the loop does.
+class SelfTimedPort final : public ports::OutputPort {
+ public:
+  explicit SelfTimedPort(std::counting_semaphore<>& sent) : sent_(sent) {}
+  core::Result<core::Done> open() override {
+    report_.health = ports::PortHealth::good;
+    return core::Done{};
+  }
+  void send(const ports::DmxFrame&, ports::TimePoint) override {
+    ++report_.frames_sent;
+    report_.left += report_.frames_sent % 2 == 0 ? 23ms : 27ms;
+    sent_.release();
+  }
+  void release(ports::TimePoint) override {}
+  ports::PortReport report() const override { return report_; }
+  bool blocks() const override { return true; }
+  bool physical() const override { return true; }
+
+ private:
+  std::counting_semaphore<>& sent_;
+  ports::PortReport report_;
+};
+
+TEST(APortThatTimesItsWire, SaysHowFarItsFramesStray) {
+  support::FakeClock clock{support::FakeClock::Sleep::jumps};
+  std::counting_semaphore<> sent{0};
+  PortSlot slot{"slow", {}, std::make_unique<SelfTimedPort>(sent), 40, clock, false};
+  slot.start(clock.now());
+  for (int i = 0; i < 50; ++i) {
+    slot.send(frame_of(i), clock);
+    clock.sleep_until(slot.next());
+    sent.acquire();
+  }
+  rig::Sent::Port report;
+  slot.report(report);
+  EXPECT_GE(report.jitter_us_p50, 2000);
+  EXPECT_LE(report.jitter_us_p50, 2250) << "to the next step up, an eighth of an octave";
+  slot.release(clock.now());
+}
+
 TEST(NewestFrame, IsNeverTornAndNeverGoesBackBetweenTwoThreads) {
   NewestFrame newest;
   constexpr int kFrames = 20000;

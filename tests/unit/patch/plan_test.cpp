@@ -168,6 +168,42 @@ TEST(Plan, MovesAnArcAndATrackOnTheirOwnChannels) {
   EXPECT_NEAR(back[1].get(Dof::track), 0.2, 1e-9);
 }
 
+TEST(Plan, SwapsAHeadsAnglesWhereItsCablesAre) {
+  // The head's pan channel tilts the lamp, downwards when it counts up; its tilt channel pans it.
+  const auto studio = support::studio_from(support::studio_text(
+      "  a: {role: key, profile: generic/moving-head, mode: 8ch, mount: {pan_tilt: {at: [-1, -1, "
+      "3], aim_at: [0, 0, 1.4], tilt: [-120 deg, 120 deg], pan: [-130 deg, 130 deg], invert_tilt: "
+      "yes, swap: yes}}, patch: {universe: 1, address: 1}}\n"));
+  const auto frames = encoded(studio, {state({{Dof::intensity, 1},
+                                              {Dof::pan, core::radians(27)},
+                                              {Dof::tilt, core::radians(54)}})});
+  const auto raw = [&](std::size_t slot) {
+    return 256 * frames[0].levels[slot] + frames[0].levels[slot + 1];
+  };
+  EXPECT_EQ(raw(0), 26214);  // (-54 + 270) / 540 * 65535
+  EXPECT_EQ(raw(2), 39321);  // (27 + 135) / 270 * 65535
+  std::vector<FixtureState> back(1);
+  Plan::of(studio).decode(frames, back);
+  EXPECT_NEAR(core::degrees(back[0].get(Dof::pan)), 27, 0.005);
+  EXPECT_NEAR(core::degrees(back[0].get(Dof::tilt)), 54, 0.005);
+}
+
+TEST(Plan, MovesAMotorAtAnAddressOfItsOwn) {
+  const auto studio = support::studio_from(support::studio_text(
+      "  a: {role: key, profile: generic/dimmer, mode: 1ch, mount: {track: {from: [-2, 1, 2.5], "
+      "to: [2, 1, 2.5], at: 50 %, axis: {universe: 2, address: 3}}}, patch: {universe: 1, address: "
+      "1}}\n"));
+  EXPECT_EQ(studio.fixtures[0].footprint(), 1);
+  const Plan plan = Plan::of(studio);
+  ASSERT_EQ(plan.universes().size(), 2u);
+  const auto frames = encoded(studio, {state({{Dof::intensity, 0}, {Dof::track, 0.25}})});
+  EXPECT_EQ(frames[1].levels[2], 0x40);  // 0.25 * 65535 = 16383.75
+  EXPECT_EQ(frames[1].levels[3], 0x00);
+  std::vector<FixtureState> back(1);
+  plan.decode(frames, back);
+  EXPECT_NEAR(back[0].get(Dof::track), 0.25, 1e-5);
+}
+
 TEST(Plan, WarnsOfModbusForWhichThereIsNoDriverYet) {
   auto studio = one("generic/dimmer", "1ch");
   studio.fixtures[0].patch = studio::ModbusPatch{"rack", 3};

@@ -19,7 +19,7 @@ TEST(RegisterMaps, ThatAreShippedAllLoad) {
   for (const auto& name : names) {
     const auto map = load_register_map(name, {}, kShipped);
     ASSERT_TRUE(map) << core::to_string(map.problems());
-    EXPECT_FALSE(map->channels.empty()) << name;
+    EXPECT_FALSE(map->channels.empty() && map->axes.empty()) << name;
   }
 }
 
@@ -40,6 +40,36 @@ TEST(RegisterMaps, OfTheNamedDevicesSayWhatTheirMakersSay) {
   ASSERT_TRUE(intesis);
   EXPECT_EQ(intesis->channels[63].address, 6315);
   EXPECT_NEAR(intesis->gap_s, 0.032, 1e-9);
+}
+
+TEST(RegisterMaps, ReadMotorsAfterTheChannels) {
+  const auto map = parse_register_map(
+      "map: a/b\nmaker: A\ndevice: B\nchannels: [{register: 40, bits: 16}]\naxes:\n"
+      "  - {target: {register: 0, words: 2, order: low_first, means: [-500, 500]}, actual: "
+      "{register: 10, input: yes}, status: {register: 12, moving: 3, fault: 15}, home: {register: "
+      "20, write: 7}, stop: {register: 21}}\n",
+      "a/b", "b.yaml");
+  ASSERT_TRUE(map) << core::to_string(map.problems());
+  EXPECT_EQ(map->slots, 4);
+  const RegisterAxis& axis = map->axes.at(0);
+  EXPECT_EQ(axis.slot, 2);
+  EXPECT_EQ(axis.words, 2);
+  EXPECT_TRUE(axis.low_word_first);
+  EXPECT_EQ(axis.from, -500);
+  EXPECT_EQ(axis.actual, 10);
+  EXPECT_TRUE(axis.actual_is_input);
+  EXPECT_EQ(axis.moving_bit, 3);
+  EXPECT_EQ(axis.homed_bit, -1);
+  EXPECT_EQ(axis.fault_bit, 15);
+  EXPECT_EQ(axis.home_value, 7);
+  EXPECT_EQ(axis.stop, 21);
+  EXPECT_EQ(axis.stop_value, 1);
+  const auto bad = parse_register_map(
+      "map: a/b\nmaker: A\ndevice: B\nchannels: [{register: 1}]\naxes: [{target: {register: 0, "
+      "words: 2, means: [5, 5]}}]\n",
+      "a/b", "b.yaml");
+  ASSERT_FALSE(bad);
+  EXPECT_EQ(bad.problems().size(), 2u) << core::to_string(bad.problems());
 }
 
 TEST(RegisterMaps, ReportEveryMistakeWithItsPlace) {
