@@ -189,6 +189,8 @@ void walk_sent(Walk& walk, Sent& sent) {
   walk.small(sent.cue.cues);
   walk(sent.cue.follow_s);
   for (auto& port : sent.ports) walk_port(walk, port);
+  for (auto& ask : sent.asks) walk(ask);
+  walk(sent.asks_id);
   walk(sent.real_time);
   walk(sent.dry_run);
 }
@@ -213,6 +215,7 @@ rig::Sent sized_sent(const studio::Studio& studio) {
   sent.limited.resize(studio.fixtures.size());
   sent.circuits.resize(studio.circuits.size());
   sent.ports.resize(studio.outputs.size());
+  sent.asks.resize(studio::asked_of_brain(studio).size());
   return sent;
 }
 

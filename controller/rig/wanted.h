@@ -116,7 +116,7 @@ struct Sent {
   std::array<double, kMasters> masters{1, 1, 1, 1, 1};
   std::array<std::uint64_t, kMasters> master_id{};  ///< the newest wishes of the brain's taken
   std::array<std::uint64_t, kSources> fade_id{};    ///< in progress or last
-  std::array<double, kSources> fade_progress{};   ///< 0..1
+  std::array<double, kSources> fade_progress{};     ///< 0..1
   Caution caution = Caution::normal;
   bool blackout = false;
   std::uint64_t blackout_id = 0;  ///< the newest wish the hand has taken
@@ -150,6 +150,10 @@ struct Sent {
     std::array<std::uint8_t, 512> slots{};  ///< as last sent; slot n is slots[n - 1]
   };
   std::vector<Port> ports;
+  /// By studio::asked_of_brain: how often, or how many detents, surfaces have asked for each since
+  /// `asks_id`, which is another after every start of the hand.
+  std::vector<double> asks;
+  std::uint64_t asks_id = 0;
   bool real_time = false;  ///< SCHED_FIFO and locked memory were granted
   bool dry_run = false;    ///< nothing physical is open
 };

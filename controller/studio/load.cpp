@@ -29,17 +29,23 @@ Studio read_sections(const Tree& tree, Context& context, profiles::Shelf& shelf)
   sections::read_fixtures(top, context, shelf, studio);
   sections::read_circuits(top, context, studio);
   sections::read_keep_out(top, context, studio);
+  sections::read_surfaces(top, context, studio);
   top.refuse_unknown();
   return studio;
 }
 
 /// Brain and hand must read the same lamps in the same places; only content counts, so that a
 /// studio keeps its fingerprint when its folder moves.
-std::uint64_t fingerprint(const std::string& yaml, const profiles::Shelf& shelf) {
+std::uint64_t fingerprint(const std::string& yaml, const profiles::Shelf& shelf,
+                          const Studio& studio) {
   core::Fingerprint print;
   print.add(yaml);
   for (const auto& [name, text] : shelf.texts())
     print.add(std::string_view("\0", 1)).add(name).add(std::string_view("\0", 1)).add(text);
+  for (const Surface& surface : studio.surfaces) print.add(core::hex(surface.map.fingerprint));
+  for (const Output& output : studio.outputs)
+    if (const auto* modbus = std::get_if<ModbusOutput>(&output.driver))
+      print.add(core::hex(modbus->map.fingerprint));
   return print.value();
 }
 
@@ -59,7 +65,7 @@ core::Result<Loaded> parse(const std::string& yaml, const std::string& name,
   checks::check_places(loaded.studio, report);
   if (report.any_error()) return report.sorted();
   loaded.warnings = report.sorted();
-  loaded.studio.fingerprint = fingerprint(yaml, shelf);
+  loaded.studio.fingerprint = fingerprint(yaml, shelf, loaded.studio);
   return loaded;
 }
 

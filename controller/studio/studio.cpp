@@ -37,6 +37,15 @@ const Fixture* Studio::fixture(std::string_view wanted) const {
   return index ? &fixtures[*index] : nullptr;
 }
 
+std::vector<Deed> asked_of_brain(const Studio& studio) {
+  std::vector<Deed> asks;
+  for (const Surface& surface : studio.surfaces)
+    for (const SurfaceControl& control : surface.map.controls)
+      for (const Deed& deed : control.deeds)
+        if (needs_brain(deed.kind)) asks.push_back(deed);
+  return asks;
+}
+
 Rig placed_rig(const Studio& studio) {
   Rig rig;
   for (const Fixture& fixture : studio.fixtures) {

@@ -54,7 +54,7 @@ fixtures:
     role: fill
     profile: generic/bicolour-panel
     mode: 3ch-tint
-    mount: {arc: {centre: [0, 0, 1.4], radius: 2 m, angle: [-80 deg, 80 deg], at: 40 deg, plane: vertical, axis: {modbus: rail, register: 7}}}
+    mount: {arc: {centre: [0, 0, 1.4], radius: 2 m, angle: [-80 deg, 80 deg], at: 40 deg, plane: vertical, axis: {universe: 2, address: 100}}}
     patch: {universe: 1, address: 5}
     curve: {table: [0, 0.1, 0.5, 1]}
   hair:
@@ -114,6 +114,12 @@ circuits:
   left wall: {limit: 2.3 kW, lamps: {hair: 650 W, head: 300 W}, tungsten: no}
 keep_out:
   desk: {at: [1, -2, 1], radius: 0.8 m}
+surfaces:
+  faders: {midi: {map: korg/nanokontrol2, name: nanoKONTROL2 MIDI 1, do: {fader 6: {level: hair}, stop: [blackout on, motion stop]}}}
+  pedal: {hid: {map: elgato/stream-deck-pedal, serial: A1, path: "1-2"}}
+  tablet: {osc: {map: generic/tablet, interface: eth0, port: 9001}}
+  wall: {gpio: {map: generic/wall-box, chip: gpiochip1}}
+  nobody: mock
 )";
   return kText;
 }

@@ -165,6 +165,7 @@ void Brain::hear(ports::TimePoint now) {
       changed();
     sent_ = std::move(report);
   }
+  hear_surfaces();
   const bool alive = link_->hand_alive(now);
   if (alive != hand_alive_) changed();
   hand_alive_ = alive;

@@ -87,6 +87,9 @@ class Brain final : public panel::Brain {
   void open_cameras();
   void remember_live();
 
+  void hear_surfaces();
+  void obey_surface(const studio::Deed& deed, double times);
+
   // One for each gesture.
   void carry_out(const panel::StartDesign& ask, const panel::Answer& answer);
   void carry_out(const panel::CancelDesign& cancel, const panel::Answer& answer);
@@ -163,6 +166,9 @@ class Brain final : public panel::Brain {
   std::optional<Console> console_;
   std::unique_ptr<HandLink> link_;
   std::optional<rig::Sent> sent_;
+  std::vector<studio::Deed> asks_;  ///< what surfaces may ask for, and how often they have
+  std::vector<double> asked_;
+  std::uint64_t asks_id_ = 0;
   bool hand_alive_ = false, adopted_ = false, spoken_ = false, ready_ = false;
   ports::TimePoint started_, last_word_, last_renewal_, last_counters_;
   core::Problems twin_problems_;

@@ -15,7 +15,7 @@ namespace chiaro::daemon::doctor {
 struct Finding {
   enum class State { good, note, bad };
   State state = State::good;
-  std::string area;     ///< "device", "camera", "real time", "network", "studio"
+  std::string area;     ///< "device", "camera", "real time", "network", "studio", "surface"
   std::string what;     ///< a whole sentence
   std::string command;  ///< that mends it; empty when nothing needs mending
 };

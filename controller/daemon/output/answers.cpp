@@ -36,6 +36,20 @@ Json port_json(const rig::Sent::Port& port) {
        {{"p50", port.jitter_us_p50}, {"p99", port.jitter_us_p99}, {"p99.9", port.jitter_us_p999}}}};
 }
 
+Json axis_json(const Housekeeper::Axis& axis, const studio::Studio& studio) {
+  const ports::AxisReport& report = axis.report;
+  Json json{{"universe", axis.universe}, {"address", report.slot + 1},
+            {"fixture", nullptr},        {"place", report.place >= 0 ? Json(report.place) : Json()},
+            {"wanted", report.wanted},   {"moving", report.moving},
+            {"homed", report.homed},     {"fault", report.fault},
+            {"heard", report.heard}};
+  for (const auto& fixture : studio.fixtures)
+    if (const auto motor = fixture.far_motor();
+        motor && motor->patch.universe == axis.universe && motor->patch.address == report.slot + 1)
+      json["fixture"] = fixture.name;
+  return json;
+}
+
 Json lamp_json(const std::string& name, rig::Marks marks, rig::Limited limited) {
   Json json{{"fixture", name}, {"marks", Json::array()}, {"limited_by", Json::array()}};
   for (const Mark mark : kMarks)
@@ -87,13 +101,44 @@ std::string Answers::blackout(bool on) {
                  "switch the lamps' mains off if they must go dark now");
 }
 
+/// Only a person homes a motor, and only one that may move: it may run through its whole range.
+std::string Answers::home(const std::string& lamp) {
+  const studio::Studio studio = housekeeper_.studio_now();
+  const auto index = studio.fixture_index(lamp);
+  const auto motor = index ? studio.fixtures[*index].far_motor() : std::nullopt;
+  std::vector<std::string> names;
+  for (const auto& fixture : studio.fixtures)
+    if (fixture.far_motor()) names.push_back(fixture.name);
+  if (!motor) {
+    const std::string near = core::nearest_name(lamp, names);
+    return refusal("no motor of '" + lamp + "' has an address of its own",
+                   near.empty() ? "`chiaro check` lists them" : "did you mean '" + near + "'?");
+  }
+  const auto axes = housekeeper_.axes_now();
+  const auto axis = std::find_if(axes.begin(), axes.end(), [&](const Housekeeper::Axis& one) {
+    return one.universe == motor->patch.universe && one.report.slot + 1 == motor->patch.address;
+  });
+  if (axis == axes.end() || !axis->report.can_home)
+    return refusal("the motor of '" + lamp + "' knows no order to find its home",
+                   "give its register map a `home`");
+  if (!housekeeper_.newest_report().motion_armed.on)
+    return refusal("motion is not armed", "see that nobody is near, then `chiaro motion arm`");
+  Wish wish;
+  wish.kind = Wish::Kind::home;
+  wish.fixture = static_cast<std::uint32_t>(*index);
+  wish.studio = studio.fingerprint;
+  return done(wish) ? Json{{"home", lamp}}.dump() : not_in_time();
+}
+
 std::string Answers::motion(const std::string& word) {
+  if (word.rfind("home ", 0) == 0) return home(word.substr(5));
   Wish wish;
   wish.kind =
       word == "stop" || word == "release" ? Wish::Kind::motion_stop : Wish::Kind::motion_arm;
   wish.on = word == "stop" || word == "arm";
   if (!wish.on && word != "release" && word != "disarm")
-    return refusal("unknown motion request '" + word + "'", "known: stop, release, arm, disarm");
+    return refusal("unknown motion request '" + word + "'",
+                   "known: stop, release, arm, disarm, home LAMP");
   if (!done(wish))
     return refusal("the output loop did not act within a second",
                    "cut the motors' power if they must stand still now");
@@ -122,6 +167,7 @@ std::string Answers::status() const {
             {"dry_run", sent.dry_run},
             {"cue", Json::parse(cue_now(sent))},
             {"lamps", Json::array()},
+            {"axes", Json::array()},
             {"circuits", Json::array()},
             {"ports", Json::array()}};
   for (std::size_t m = 0; m < rig::kMasters; ++m)
@@ -135,6 +181,7 @@ std::string Answers::status() const {
                                 {"draw_w", sent.circuits[i].draw_w},
                                 {"scale", sent.circuits[i].scale}});
   for (const auto& port : sent.ports) json["ports"].push_back(port_json(port));
+  for (const auto& axis : housekeeper_.axes_now()) json["axes"].push_back(axis_json(axis, studio));
   return json.dump();
 }
 

@@ -3,7 +3,8 @@
 // each. They come after the loop has acted.
 //
 //   status                              blackout on|off          reload    release
-//   motion stop|release|arm|disarm      mark KIND on|off LAMP    marks off
+//   motion stop|release|arm|disarm      motion home LAMP
+//   mark KIND on|off LAMP               marks off
 //   level PERCENT|release LAMP          master NAME PERCENT          blind on|off
 //   cue go|back|off|list    cue to N    cue remove N
 //   cue record N [fade S] [follow S] [name WORDS]
@@ -42,6 +43,7 @@ class Answers {
  private:
   std::string blackout(bool on);
   std::string motion(const std::string& word);
+  std::string home(const std::string& lamp);
   std::string mark(const std::string& words);
   std::string unmark();
   std::string level(const std::string& words);

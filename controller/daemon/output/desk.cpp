@@ -176,6 +176,16 @@ void Desk::stop_for_safety(const Surface& surface) {
 void Desk::act(Surface& surface, const BoundControl& bound, double value, TimePoint now) {
   using Kind = drivers::SurfaceControl::Kind;
   const Act& act = bound.act;
+  if (act.kind == Act::Kind::ask) {
+    Wish wish;
+    wish.kind = Wish::Kind::ask;
+    wish.studio = studio_.fingerprint;
+    wish.fixture = act.asked;
+    const bool turned = surface.kind_of(bound.control) == Kind::encoder;
+    wish.number = turned ? value : value >= 0.5 ? 1 : 0;
+    if (wish.number != 0) (void)hand_.wish(wish);
+    return;
+  }
   if (act.kind != Act::Kind::master && act.kind != Act::Kind::level)
     return press(act, value >= 0.5, now);
   Fader& fader = surface.faders[bound.control];
@@ -273,6 +283,7 @@ void Desk::press(const Act& act, bool pressed, TimePoint now) {
     case Act::Kind::none:
     case Act::Kind::master:
     case Act::Kind::level:
+    case Act::Kind::ask:
       return;
   }
   if (pressed || act.press == Act::Press::follow) (void)hand_.wish(wish);

@@ -41,7 +41,8 @@ struct Act {
     cue_go,
     cue_back,
     cue_off,
-    cue_to  ///< `cue`
+    cue_to,  ///< `cue`
+    ask      ///< `asked`, of the brain: a press, or an encoder's detents
   };
   /// Of blackout, motion stop, arming, blind and marks.
   enum class Press : std::uint8_t {
@@ -57,7 +58,8 @@ struct Act {
   core::Dof dof = core::Dof::intensity;
   rig::Mark mark = rig::Mark::flash;
   double cue = 1;
-  double step = 0.01;  ///< of an encoder: what a detent adds, as a share of the whole range
+  std::uint32_t asked = 0;  ///< which of studio::asked_of_brain
+  double step = 0.01;       ///< of an encoder: what a detent adds, as a share of the whole range
 };
 
 /// What a control's lamp, motor or relay shows; 0..1.

@@ -62,6 +62,7 @@ Housekeeper::Housekeeper(Hand& hand, const std::filesystem::path& studio_file,
 void Housekeeper::tick() {
   look_for_brain();
   read_report();
+  read_axes();
   tell_changes();
   if (desk_ != nullptr) {
     desk_->follow(studio_, report_);  // both are changed by this thread alone
@@ -107,6 +108,20 @@ void Housekeeper::read_report() {
   from_words(report_words_, fresh);
   const std::scoped_lock lock(report_mutex_);
   report_ = std::move(fresh);
+}
+
+void Housekeeper::read_axes() {
+  std::vector<Axis> axes;
+  for (const auto& slot : show_->ports())
+    for (const ports::AxisReport& axis : slot->port().axes())
+      axes.push_back({slot->settings().universe, axis});
+  const std::scoped_lock lock(report_mutex_);
+  axes_ = std::move(axes);
+}
+
+std::vector<Housekeeper::Axis> Housekeeper::axes_now() const {
+  const std::scoped_lock lock(report_mutex_);
+  return axes_;
 }
 
 studio::Studio Housekeeper::studio_now() const {

@@ -42,12 +42,19 @@ class Housekeeper {
   core::Result<core::Done> reload_now(ports::Duration patience);
   /// The newest report, copied. Thread-safe.
   rig::Sent newest_report() const;
+  /// How the motors with an address of their own stand, by their own word. Thread-safe.
+  struct Axis {
+    std::uint16_t universe = 0;
+    ports::AxisReport report;
+  };
+  std::vector<Axis> axes_now() const;
   /// The studio that is being sent, copied. Thread-safe.
   studio::Studio studio_now() const;
 
  private:
   void look_for_brain();
   void read_report();
+  void read_axes();
   void tell_changes();
   void mend_ports();
   bool is_due_for_mending(const PortSlot& slot);
@@ -71,7 +78,8 @@ class Housekeeper {
   std::vector<std::uint64_t> report_words_;
   mutable std::mutex report_mutex_;
   rig::Sent report_;
-  studio::Studio studio_;  ///< under the report's mutex
+  studio::Studio studio_;   ///< under the report's mutex
+  std::vector<Axis> axes_;  ///< the same
 
   struct Lost {
     ports::TimePoint next;

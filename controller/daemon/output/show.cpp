@@ -2,6 +2,7 @@
 #include "controller/daemon/output/show.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "controller/daemon/box_words.h"
 #include "controller/daemon/output/cue_book.h"
@@ -58,6 +59,7 @@ Show::Show(const studio::Studio& studio, const Options& options, ports::TimePoin
       report_(sized_sent(studio)),
       wanted_(sized_wanted(studio)) {
   report_.dry_run = options.dry_run;
+  report_.asks_id = static_cast<std::uint64_t>(now.time_since_epoch().count());
 }
 
 Show::~Show() {
@@ -77,6 +79,16 @@ core::Result<std::unique_ptr<Show>> Show::make(const studio::Studio& studio, con
   }
   show->recall_cues(read_cues(world.state_folder, studio, warnings), held);
   for (const auto& output : studio.outputs) show->add_port(output, options, before, warnings);
+  for (const auto& fixture : studio.fixtures) {
+    Motor motor;
+    if (const auto far = fixture.far_motor()) {
+      for (std::size_t i = 0; i < studio.outputs.size(); ++i)
+        if (studio.outputs[i].universe == far->patch.universe)
+          motor.port = static_cast<std::ptrdiff_t>(i);
+      motor.slot = static_cast<std::uint16_t>(far->patch.address - 1);
+    }
+    show->motors_.push_back(motor);
+  }
   show->wanted_words_.resize(wanted_format(studio).words);
   const BoxFormat format = sent_format(studio);
   show->sent_words_.resize(format.words);
@@ -117,6 +129,24 @@ void Show::obey_for(std::size_t fixture, const Wish& wish, ports::TimePoint now)
   if (wish.kind == Wish::Kind::mark) governor_.mark(fixture, wish.mark, wish.on, now);
   if (wish.kind == Wish::Kind::level) governor_.set_level(fixture, wish.dof, wish.number, now);
   if (wish.kind == Wish::Kind::release) governor_.release(fixture, now);
+  if (wish.kind == Wish::Kind::home) home(fixture);
+}
+
+void Show::home(std::size_t fixture) {
+  if (fixture >= motors_.size() || !governor_.motion_armed() || governor_.motion_stopped()) return;
+  const Motor& motor = motors_[fixture];
+  if (motor.port < 0) return;
+  ports_[static_cast<std::size_t>(motor.port)]->port().order(
+      {ports::AxisOrder::Kind::home, motor.slot});
+}
+
+/// Motors that know an order to stop get it at once; the levels alone would let them run on to
+/// where they were sent last.
+void Show::stop_motors() {
+  const bool stopped = governor_.motion_stopped();
+  if (std::exchange(motors_stopped_, stopped) == stopped) return;
+  using Kind = ports::AxisOrder::Kind;
+  for (auto& port : ports_) port->port().order({stopped ? Kind::stop : Kind::release, 0});
 }
 
 void Show::obey_for_those_meant(const Wish& wish, ports::TimePoint now) {
@@ -130,7 +160,12 @@ void Show::obey(const Wish& wish, ports::TimePoint now) {
     case Wish::Kind::mark:
     case Wish::Kind::level:
     case Wish::Kind::release:
+    case Wish::Kind::home:
       obey_for_those_meant(wish, now);
+      break;
+    case Wish::Kind::ask:
+      if (wish.studio == studio_.fingerprint && wish.fixture < report_.asks.size())
+        report_.asks[wish.fixture] += wish.number;
       break;
     case Wish::Kind::motion_stop:
       governor_.stop_motion(wish.on);
@@ -218,6 +253,7 @@ void Show::frame(ports::Clock& clock) {
   if (!governor_.cue_plays()) cues_.off();  // a new look took its place
   play(cues_.due(now), now);
   plan_.encode(governor_.step(now), frames_);
+  stop_motors();
   if (!governor_.blackout()) tried_.raise(frames_, now);
   for (std::size_t i = 0; i < ports_.size(); ++i)
     if (ports_[i]->due(now)) ports_[i]->send(frames_[frame_of_port_[i]], clock);

@@ -78,6 +78,8 @@ class Show {
   void recall_cues(std::unique_ptr<rig::CueList> list, const rig::Held* held);
   void play(const rig::Cue* cue, ports::TimePoint now);
   void obey_for(std::size_t fixture, const Wish& wish, ports::TimePoint now);
+  void home(std::size_t fixture);
+  void stop_motors();
   void obey_for_those_meant(const Wish& wish, ports::TimePoint now);
   void hear(ports::TimePoint now);
   bool report_is_due(ports::TimePoint now) const;
@@ -87,6 +89,13 @@ class Show {
   rig::Governor governor_;
   rig::CueStack cues_;
   std::vector<ports::DmxFrame> frames_;
+  /// By fixture: the port and the slot of its motor, if it has an address of its own.
+  struct Motor {
+    std::ptrdiff_t port = -1;
+    std::uint16_t slot = 0;
+  };
+  std::vector<Motor> motors_;
+  bool motors_stopped_ = false;
   TriedSlots tried_;
   std::vector<std::unique_ptr<PortSlot>> ports_;  ///< one per output of the studio
   std::vector<std::size_t> frame_of_port_;        ///< index into frames_

@@ -20,7 +20,9 @@ struct Wish {
     level,    ///< a fader of a fixture's DOF; `number`: inside units
     release,  ///< lets the faders of a fixture go
     master,   ///< `number`: 0..1
-    blind
+    blind,
+    ask,  ///< `fixture`: which of studio::asked_of_brain, `number`: how often
+    home  ///< the fixture's motor looks for its home; only while motion is armed
   };
   static constexpr std::uint32_t kEvery = 0xffffffffu;  ///< as a fixture: each of them
   Kind kind = Kind::mark;

@@ -35,9 +35,11 @@ void read_fixtures(Section& top, Context& context, profiles::Shelf& shelf, Studi
 /// After fixtures.
 void read_circuits(Section& top, Context& context, Studio& studio);
 void read_keep_out(Section& top, Context& context, Studio& studio);
+/// After fixtures: their levels may be on faders.
+void read_surfaces(Section& top, Context& context, Studio& studio);
 
 /// Parts of a fixture.
-Mount read_mount(const Tree* tree, const Studio& studio, Context& context);
+Mount read_mount(const Tree* tree, Context& context);
 Patch read_patch(const Tree* tree, const Studio& studio, Context& context);
 std::vector<Modifier> read_modifiers(const Tree* tree, Context& context);
 Limits read_limits(const Tree* tree, Context& context);

@@ -75,6 +75,35 @@ TEST_F(Doctor, NamesAnAdapterAndTheCommandThatLetsYouUseIt) {
   EXPECT_EQ(find(all, "may not use"), nullptr);
 }
 
+TEST_F(Doctor, ListsTheSurfacesOfAStudioAndWhatOfThemIsMissing) {
+  studio::Studio studio;
+  studio::Surface wall;
+  wall.name = "wall";
+  wall.driver = "gpio";
+  wall.map.maker = "Generic";
+  wall.map.device = "box";
+  wall.map.controls.resize(2);
+  wall.map.controls[0].chip = wall.map.controls[1].chip = "gpiochip0";
+  wall.map.controls[0].deeds.resize(1);
+  studio::Surface pedal;
+  pedal.name = "pedal";
+  pedal.driver = "hid";
+  pedal.device.vendor = 0x0fd9;
+  pedal.map.controls.resize(1);
+  studio.surfaces = {wall, pedal};
+  auto all = look(&studio);
+  const auto* missing = find(all, "'wall': there is no GPIO chip gpiochip0");
+  ASSERT_NE(missing, nullptr) << to_text(all);
+  EXPECT_EQ(missing->area, "surface");
+  EXPECT_NE(missing->command.find("gpiodetect"), std::string::npos);
+  ASSERT_NE(find(all, "'pedal': "), nullptr);
+  EXPECT_EQ(find(all, "'pedal': ")->state, Finding::State::bad);
+  EXPECT_NE(find(all, "'pedal' has no control that does anything"), nullptr);
+  put("dev/gpiochip0", "", 0666);
+  all = look(&studio);
+  EXPECT_NE(find(all, "'wall': Generic box, 2 controls, on gpiochip0"), nullptr) << to_text(all);
+}
+
 TEST_F(Doctor, TellsTwoAdaptersWithOneSerialNumberApart) {
   plug_ftdi("1-1", "A", "ttyUSB0");
   plug_ftdi("1-2", "A", "ttyUSB1");

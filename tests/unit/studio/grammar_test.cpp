@@ -128,10 +128,14 @@ TEST_F(Grammar, EveryKindOfMount) {
   const auto& arc = std::get<ArcMount>(studio.fixture("fill")->mount);
   EXPECT_TRUE(arc.vertical);
   EXPECT_DOUBLE_EQ(arc.at, core::radians(40));
-  EXPECT_EQ(arc.axis, "rail:7");
+  EXPECT_EQ(arc.axis.universe, 2);
+  EXPECT_EQ(arc.axis.slot, 100);
+  EXPECT_EQ(arc.axis.bytes, 2);
   const auto& track = std::get<TrackMount>(studio.fixture("hair")->mount);
   EXPECT_DOUBLE_EQ(track.at, 0.25);
-  EXPECT_EQ(track.axis, "channel:2");
+  EXPECT_EQ(track.axis.universe, 0);
+  EXPECT_EQ(track.axis.slot, 2);
+  EXPECT_EQ(track.axis.bytes, 1);
   const auto& head = std::get<PanTiltMount>(studio.fixture("head")->mount);
   EXPECT_DOUBLE_EQ(head.pan.least, core::radians(-270));
   const auto& fixed = std::get<FixedMount>(studio.fixture("tungsten")->mount);
