@@ -14,6 +14,7 @@ namespace {
 // The fit looks at 32 x 32 averages: colour of light varies slowly, and subjects differ in detail.
 constexpr core::Size kPatches{32, 32};
 constexpr double kDarkest = 0.004;  // display-linear; chroma below it is noise
+constexpr double kSaturated = 0.1;  // its weakest channel is below
 // Gauss-Newton on CCT, tint and drives; each step is held back by this share of the strongest
 // lamp's weight, so that a lamp which hardly shows keeps its colour.
 constexpr int kSteps = 8;
@@ -67,7 +68,9 @@ Wanted wanted_colour(const Setting& setting, const studio::Rig& rig) {
     for (int x = 0; x < kPatches.width; ++x) {
       const core::Rgb c = theirs.at(x, y);
       const double luminance = core::luminance(c), light = ours.at(x, y);
-      const bool clipped = std::max({c.r, c.g, c.b}) > 0.95;
+      // Saturated light tells its colour even where its strongest channel is at its end.
+      const bool clipped =
+          std::max({c.r, c.g, c.b}) > 0.95 && std::min({c.r, c.g, c.b}) > kSaturated;
       if (luminance < kDarkest || light < kDarkest || clipped) continue;
       wanted.colour.set(x, y, (light / luminance) * c);
       // Errors count as they are seen: by dL*/dY, which goes as Y^(-2/3).
@@ -289,6 +292,10 @@ studio::Rig with_colours(const Setting& setting, const studio::Rig& rig) {
   if (mixers.empty()) return rig;
   const core::Picture rest = the_rest(setting, rig, mixers);
   const Wanted wanted = wanted_colour(setting, rig);
+  // Nowhere can its colour be told: no reason to change any lamp's.
+  if (std::all_of(wanted.weight.values.begin(), wanted.weight.values.end(),
+                  [](float weight) { return weight <= 0; }))
+    return rig;
   for (int i = 0; i < kSteps; ++i) step(setting, rest, wanted, mixers);
   studio::Rig result = rig;
   for (const Mixer& mixer : mixers) result.states[mixer.fixture] = coloured(setting, mixer);

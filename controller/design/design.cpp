@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "controller/design/beyond.h"
 #include "controller/design/colours.h"
 #include "controller/design/comfort.h"
 #include "controller/design/exposure.h"
@@ -43,7 +44,10 @@ studio::Rig wanted_placements(const studio::Studio& studio, const Sizes& sizes, 
   const Found found = with_roles_kept(
       fine, polish(fine, search(coarse, options, watch), options, watch), options, watch);
   if (std::isfinite(found.cost)) return lamps.rig(found.point);
-  warnings.push_back("no allowed place was found for the lamps together: they stay where they are");
+  warnings.push_back(watch.stopped()
+                         ? "no place was tried before time was up: the lamps stay where they are"
+                         : "no allowed place was found for the lamps together: they stay where "
+                           "they are");
   return all.base;
 }
 
@@ -71,6 +75,10 @@ void describe(const studio::Studio& studio, const Layers& shown, const Prepared&
   look.placed_picture = look.placed == look.wanted
                             ? look.picture
                             : predicted(studio, shown, look.placed, Accuracy::exact);
+  judge_colour(full.target, look.picture, look.judgement);
+  judge_colour(full.target, look.placed_picture, look.placed_judgement);
+  judge_locked(all, look.judgement);
+  judge_locked(all, look.placed_judgement);
 }
 
 /// Where the lamps stand now; held ones also shine as the design holds them. Motors need nobody:
@@ -159,6 +167,10 @@ core::Result<Look> design(const studio::Studio& studio, const LayersSource& twin
   describe(studio, layers, sizes.full, all, look);
   if (options.advise_exposure) advise_exposure(studio, layers, sizes, goal, all, watch, look);
 
+  if (std::string unseen = unseen_in_words(studio, layers); !unseen.empty())
+    look.warnings.push_back(std::move(unseen));
+  if (std::string black = black_in_words(sizes.full.target); !black.empty())
+    look.warnings.push_back(std::move(black));
   const auto moves = instructions(studio, studio::placed_rig(studio), look.wanted);
   look.instructions.insert(look.instructions.end(), moves.begin(), moves.end());
   warn_of_places(studio, layers, studio::placed_rig(studio), look.warnings);

@@ -66,8 +66,10 @@ std::vector<std::string> instructions(const studio::Studio& studio, const studio
     const studio::Fixture& fixture = studio.fixtures[i];
     const bool stand = std::holds_alternative<studio::StandMount>(fixture.mount);
     const core::Spherical to = place_of(wanted.states[i]);
+    const std::string place = place_in_words(to);  // "47° camera left", "at the camera's azimuth"
     if (stand && !same_place(place_of(now.states[i]), to))
-      result.push_back("move " + fixture.name + " to " + place_in_words(to) + " from the face");
+      result.push_back("move " + fixture.name + (place.starts_with("at ") ? " " : " to ") + place +
+                       " from the face");
     for (const studio::HandBinding& binding : fixture.by_hand) {
       const std::string words = by_hand(fixture, binding, now.states[i], wanted.states[i]);
       if (!words.empty()) result.push_back(words);

@@ -287,7 +287,8 @@ void add_options(CLI::App& verb, Asked& asked) {
       });
   verb.add_option("--optimiser", asked.optimiser, "how places are searched (default sbplx)");
   verb.add_option("--seed", asked.seed, "same seed and trials, same look (default 1)");
-  auto* trials = verb.add_option("--trials", asked.trials, "how many places to try");
+  auto* trials = verb.add_option("--trials", asked.trials, "how many places to try, at least 1")
+                     ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
   verb.add_option("--budget", asked.budget, "or how long, as in 2s or 500ms")
       ->excludes(trials)
       ->check([](const std::string& text) {
