@@ -4,6 +4,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "controller/measure/gram.h"
 #include "tests/support/analytic_layers.h"
 #include "tests/support/rigs.h"
 
@@ -122,6 +123,30 @@ TEST_F(Levels3, NoLampsAtAllIsNoCrime) {
   for (const Objective objective : {Objective::wavelet, Objective::perceptual}) {
     const Target wanted = target({0.5, 0.2, 0.3}, objective);
     EXPECT_TRUE(level_solver(wanted, map)->solve(none, Effort::quick).values.empty());
+  }
+}
+
+TEST_F(Levels3, TheGramFormsSlopeIsWhatFiniteDifferencesOfThePicturesSay) {
+  const Target wanted = target({0.5, 0.3, 0.4}, Objective::wavelet);
+  const auto form = measure::haar_form(columns_.planes, *columns_.offset, wanted.luminance);
+  const std::vector<double> at{0.2, 0.6, 0.5};
+  const auto squared = [&](std::vector<double> levels) {
+    core::Plane picture(kSize);
+    mix(columns_, levels, picture);
+    const double far =
+        measure::haar_distance(measure::haar_spectrum(picture, kSize.width),
+                               measure::haar_spectrum(wanted.luminance, kSize.width));
+    return far * far;
+  };
+  EXPECT_NEAR(form.at(at), squared(at), 1e-4 * squared(at));
+  for (std::size_t k = 0; k < 3; ++k) {
+    double slope = -2 * form.q_vector[k];
+    for (std::size_t j = 0; j < 3; ++j) slope += 2 * form.q_matrix[3 * k + j] * at[j];
+    const double step = 0.02;  // the form is quadratic: central differences have no error of step
+    auto up = at, down = at;
+    up[k] += step, down[k] -= step;
+    const double measured = (squared(up) - squared(down)) / (2 * step);
+    EXPECT_NEAR(slope, measured, 2e-3 * std::abs(measured)) << k;
   }
 }
 

@@ -8,7 +8,10 @@
 #include <vector>
 
 #include "controller/core/random.h"
+#include "controller/measure/measure.h"
+#include "controller/render/lighting.h"
 #include "controller/twin/lights/light_model.h"
+#include "tests/support/meshes.h"
 
 namespace chiaro::render {
 namespace {
@@ -297,6 +300,59 @@ TEST(KernelsMix, AddsAnyLengthOnEveryInstructionSet) {
   int runs = 0;
   kernels::for_each_target(mix, &runs);
   EXPECT_GE(runs, 1);
+}
+
+/// What the design engine makes of one lamp and measures of it.
+struct WholePictures {
+  const View& view;
+  std::vector<twin::Light> lights;
+  std::vector<core::Plane> first;  ///< of the first instruction set
+  std::vector<measure::Components> measured;
+  int sets = 0;
+};
+
+void compare_pictures(void* data) {
+  auto& all = *static_cast<WholePictures*>(data);
+  const measure::PixelMap map = measure::pixel_map(core::planes(all.view.buffer));
+  std::size_t k = 0;
+  for (const twin::Light& light : all.lights)
+    for (const Shading shading : {Shading::exact, Shading::quick}) {
+      core::Plane picture;
+      const Traced traced(all.view, light, kCached);
+      luminance(all.view, light, 1e-3, &traced, picture, shading);
+      const auto now = measure::components_of_luminance(picture, map);
+      if (all.sets == 0) {
+        all.first.push_back(picture);
+        all.measured.push_back(now);
+        continue;
+      }
+      double most = 0, off = 0;
+      for (std::size_t i = 0; i < picture.values.size(); ++i) {
+        most = std::max(most, std::abs(static_cast<double>(all.first[k].values[i])));
+        off = std::max(off, std::abs(static_cast<double>(picture.values[i]) -
+                                     static_cast<double>(all.first[k].values[i])));
+      }
+      EXPECT_LE(off, 2e-5 * most);
+      const measure::Components& then = all.measured[k++];
+      EXPECT_NEAR(now.mean, then.mean, 1e-2);
+      EXPECT_NEAR(now.gradient, then.gradient, 1e-2);
+      EXPECT_NEAR(now.variance, then.variance, 1e-2);
+      EXPECT_NEAR(now.contrast, then.contrast, 1e-3);
+      EXPECT_NEAR(now.edge, then.edge, 1e-2);
+    }
+  ++all.sets;
+}
+
+TEST(KernelsTogether, GiveTheSamePictureAndTheSameMeasuresOnEveryInstructionSet) {
+  const support::Folder folder;
+  const studio::Studio studio = support::ball_studio(folder.path(), 3);
+  const auto geometry = twin::build_geometry(studio, {});
+  ASSERT_TRUE(geometry);
+  const View view = see(std::make_shared<Tracer>(*geometry), studio.main_camera(), {64, 64});
+  const twin::Scene scene = twin::lit_by(studio, *geometry, studio::placed_rig(studio));
+  WholePictures all{view, scene.lights, {}, {}, 0};
+  kernels::for_each_target(compare_pictures, &all);
+  EXPECT_GE(all.sets, 2) << "this processor knows one instruction set only?";
 }
 
 }  // namespace
