@@ -13,7 +13,7 @@ namespace {
 constexpr double kBlack = 0.0015;
 // Distance from grey in CIELAB at L* 76. Tungsten light on skin under daylight balance stays below.
 constexpr double kStrong = 75;
-constexpr double kReached = 0.25, kNear = 0.6;
+constexpr double kReached = 0.25, kNear = 0.4;
 // Pixels: an eye's worth. With fewer there is no shape to tell light by.
 constexpr std::size_t kFewest = 64;
 

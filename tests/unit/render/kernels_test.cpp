@@ -332,7 +332,7 @@ void compare_pictures(void* data) {
         off = std::max(off, std::abs(static_cast<double>(picture.values[i]) -
                                      static_cast<double>(all.first[k].values[i])));
       }
-      EXPECT_LE(off, 2e-5 * most);
+      EXPECT_LE(off, 2e-4 * most) << "a twentieth of an 8-bit step: highlights' powers differ so";
       const measure::Components& then = all.measured[k++];
       EXPECT_NEAR(now.mean, then.mean, 1e-2);
       EXPECT_NEAR(now.gradient, then.gradient, 1e-2);
