@@ -57,6 +57,20 @@ TEST(BenchCommand, RunsItsKernelsToTheEndOnAClockThatStandsStill) {
   EXPECT_GE(json["figures"].size(), 7u);
 }
 
+TEST(BenchCommand, FollowsAMovingSubjectWithoutAJump) {
+  Benched b;
+  ASSERT_EQ(b.run({"--quick", "--only", "moving", "--json"}), ports::Exit::done)
+      << b.world.err.str();
+  const auto json = nlohmann::json::parse(b.world.out.str());
+  int steps = 0;
+  for (const auto& figure : json["figures"])
+    if (figure["name"] == "  largest step of a level") {
+      EXPECT_TRUE(figure["met"]);
+      ++steps;
+    }
+  EXPECT_EQ(steps, 2) << "a look kept, and a mood matched";
+}
+
 TEST(BenchCommand, AMoodThatDoesNotExistIsAProblemWithTheNearestName) {
   Benched b;
   EXPECT_EQ(b.run({"--quick", "--mood", "rembrant"}), ports::Exit::input_has_problems);
