@@ -48,13 +48,17 @@ VirtualCamera::VirtualCamera(const studio::Studio& studio, const studio::Camera&
       gain_(studio::exposure_gain(studio.exposure, camera)),
       view_(render::see(tracer_, camera, camera.size)),
       ambient_(draw_ambient()),
-      drawn_(studio.fixtures.size()) {}
+      drawn_(studio.fixtures.size()) {
+  if (options_.renderer != Renderer::bounced) return;
+  bounces_ = std::make_unique<const render::BounceField>(tracer_, camera);
+  bounce_map_ = std::make_unique<const render::BounceMap>(*bounces_, view_);
+}
 
 core::Picture VirtualCamera::draw_ambient() {
   // lit_by knows how the studio's ambient light becomes irradiance; the rig plays no part in it.
   const std::shared_ptr<const twin::Geometry> geometry(tracer_, &tracer_->geometry());
   auto scene = twin::lit_by(studio_, geometry, studio::placed_rig(studio_));
-  if (options_.renderer == Renderer::fast)
+  if (options_.renderer != Renderer::path)
     return render::ambient_layer(view_, scene.ambient_irradiance, gain_);
   scene.lights.clear();
   scene.levels.clear();
@@ -64,9 +68,10 @@ core::Picture VirtualCamera::draw_ambient() {
 
 core::Picture VirtualCamera::draw(const twin::Light& white) {
   ++layers_drawn_;
-  if (options_.renderer == Renderer::fast) {
+  if (options_.renderer != Renderer::path) {
     auto layer = render::layer(view_, white, gain_);
     add(layer.diffuse, layer.specular, kWhite);
+    if (bounces_) bounce_map_->add_colour(bounces_->from(white), kWhite, gain_, layer.diffuse);
     return std::move(layer.diffuse);
   }
   const std::shared_ptr<const twin::Geometry> geometry(tracer_, &tracer_->geometry());

@@ -9,14 +9,16 @@
 #include <vector>
 
 #include "controller/core/picture.h"
+#include "controller/render/bounce.h"
 #include "controller/render/view.h"
 #include "controller/studio/studio.h"
 #include "simulator/virtual_studio/stage.h"
 
 namespace chiaro::simulator {
 
-/// fast: direct light, as the twin predicts it. path: bounced light too, as in a real room.
-enum class Renderer { fast, path };
+/// fast: direct light alone. bounced: with what walls and floor give back, coarsely, as the planner
+/// predicts it. path: traced like a real room, slowly.
+enum class Renderer { fast, bounced, path };
 
 struct CameraOptions {
   Renderer renderer = Renderer::fast;
@@ -54,6 +56,8 @@ class VirtualCamera {
   double gain_;
   render::View view_;
   core::Picture ambient_;
+  std::unique_ptr<const render::BounceField> bounces_;  ///< both of `bounced` only
+  std::unique_ptr<const render::BounceMap> bounce_map_;
   std::vector<Drawn> drawn_;
   std::size_t layers_drawn_ = 0;
 };

@@ -18,8 +18,10 @@ std::optional<SimOptions> parse_sim_options(std::span<const std::string> argumen
                "chiaro-sim"};
   app.add_option("STUDIO", options.studio, "the studio file")->required();
   app.add_option("--port", options.port, "of the camera's HTTP server")->capture_default_str();
-  app.add_option("--renderer", renderer, "fast: direct light; path: bounced light too, slowly")
-      ->check(CLI::IsMember({"fast", "path"}))
+  app.add_option("--renderer", renderer,
+                 "fast: light from the lamps and, coarsely, from walls and floor; direct: from the "
+                 "lamps alone; path: traced like a real room, slowly")
+      ->check(CLI::IsMember({"fast", "direct", "path"}))
       ->capture_default_str();
   app.add_option("--samples", options.camera.samples, "paths per pixel of --renderer path")
       ->check(CLI::Range(1, 65536))
@@ -60,7 +62,9 @@ std::optional<SimOptions> parse_sim_options(std::span<const std::string> argumen
   options.departures = *departures;
   options.sensor.on = noise == "on";
   options.stagehand = stagehand == "auto";
-  options.camera.renderer = renderer == "path" ? Renderer::path : Renderer::fast;
+  options.camera.renderer = renderer == "path"     ? Renderer::path
+                            : renderer == "direct" ? Renderer::fast
+                                                   : Renderer::bounced;
   options.camera.seed = options.seed;
   options.camera.stop = &world.stop;
   return options;

@@ -207,7 +207,9 @@ std::string VirtualStudio::status() {
   const std::lock_guard lock(mutex_);
   Json json;
   json["studio"] = studio_.name;
-  json["renderer"] = options_.camera.renderer == Renderer::fast ? "fast" : "path";
+  json["renderer"] = options_.camera.renderer == Renderer::path   ? "path"
+                     : options_.camera.renderer == Renderer::fast ? "direct"
+                                                                  : "fast";
   json["seed"] = options_.seed;
   json["packets"] = node_.packets();
   json["out_of_sequence"] = node_.out_of_sequence();

@@ -130,6 +130,9 @@ TEST_F(VirtualCameraTest, ThePathTracerAddsBouncedLightToTheSameLayers) {
   const double bounced = mean(path.picture(lamps)), direct = mean(fast.picture(lamps));
   EXPECT_GT(bounced, direct);
   EXPECT_LT(bounced, 1.6 * direct);
+  options.renderer = Renderer::bounced;
+  auto quick = camera(options);
+  EXPECT_NEAR(mean(quick.picture(lamps)), bounced, 0.3 * (bounced - direct));
 }
 
 TEST(Turned, MovesTheAxisAndKeepsTheFrameSquare) {
