@@ -12,6 +12,7 @@
 #include "controller/daemon/command.h"
 #include "controller/daemon/demo/one_look.h"
 #include "controller/daemon/demo/supervisor.h"
+#include "controller/daemon/demo/working_copy.h"
 #include "controller/studio/load.h"
 #include "drivers/common/http_client.h"
 
@@ -80,6 +81,7 @@ class Demo {
 
  private:
   core::Result<core::Done> start();
+  core::Result<std::filesystem::path> studio_file() const;
   core::Result<core::Done> start_programs(const std::string& studio_file);
   core::Result<core::Done> make_one_look();
   core::Result<core::Done> run_until_stopped();
@@ -119,9 +121,17 @@ DemoLink Demo::link() {
           }};
 }
 
+/// A file that somebody named is theirs to change; the shipped one is not the demo's.
+core::Result<std::filesystem::path> Demo::studio_file() const {
+  if (!arguments_.studio.empty()) return std::filesystem::path(arguments_.studio);
+  return working_copy(world_.config_folder / "studios/portrait.yaml", state_ / "studio");
+}
+
 core::Result<core::Done> Demo::start() {
-  const auto file = arguments_.studio.empty() ? world_.config_folder / "studios/portrait.yaml"
-                                              : std::filesystem::path(arguments_.studio);
+  prepare_state(state_, arguments_.once);
+  const auto found = studio_file();
+  if (!found) return found.problems();
+  const auto& file = *found;
   const auto loaded = studio::load_studio(file, {world_.config_folder});
   if (!loaded) {
     bad_input_ = true;
@@ -148,7 +158,6 @@ core::Result<core::Done> Demo::start() {
                              "is another demo running? End it, then try again");
       !free)
     return free;
-  prepare_state(state_, arguments_.once);
   return start_programs(std::filesystem::absolute(file).string());
 }
 
@@ -229,7 +238,8 @@ void declare_demo(CLI::App& app, ports::World& world, Verdict& verdict) {
   verb->add_flag("--once", arguments->once, "make one look, save its picture, and end");
   verb->add_option("--mood", arguments->mood, "the mood to begin with (--once: rembrandt)");
   verb->add_option("--port", arguments->port, "of the control panel")->capture_default_str();
-  verb->add_option("--studio", arguments->studio, "a studio file instead of the shipped one");
+  verb->add_option("--studio", arguments->studio,
+                   "a studio file instead of a copy of the shipped one");
   verb->add_option("--picture", arguments->picture, "where --once saves its picture")
       ->capture_default_str();
   verb->add_option("--errors", arguments->errors,
