@@ -123,13 +123,20 @@ struct LearnLamp {
   };
   std::vector<Slot> slots;
   double output_cd = 5000;
-  core::Range cct{3200, 5600};  ///< equal ends: one colour
-  std::string place = "45 left, 35 up, 1.8 m";
-  bool on_stand = true;
+  core::Range cct{3200, 5600};                  ///< equal ends: one colour
+  std::string place = "45 left, 35 up, 1.8 m";  ///< on a track: one end of it
+  std::string held = "stand";                   ///< one of kHeldBy
+  std::uint16_t motor_slot = 0;                 ///< counted from the lamp's first; 0 = the next
+  int motor_bits = 16;
+  bool over = false;                               ///< an arc over the sitter, else round
+  double travel_deg = 60;                          ///< of an arc, each way
+  std::string far_end = "45 right, 35 up, 1.8 m";  ///< of a track
+  double along = 0.5;                              ///< 0..1 of a track
   bool add = false;  ///< write profile and patch line, and read the studio again
 };
 struct AddMood {
   std::string name, title, picture;
+  bool replace = true;  ///< an own picture of that name; else another name is found
 };
 struct RemoveMood {
   std::string name;
@@ -143,6 +150,9 @@ using Gesture =
 inline constexpr const char* kSeen[] = {"nothing", "dimmer",     "fine",  "red",  "green", "blue",
                                         "white",   "warm_white", "amber", "lime", "cyan",  "cct",
                                         "tint",    "zoom",       "pan",   "tilt", "keep"};
+
+/// What may hold a lamp: an arc and a track have a motor.
+inline constexpr const char* kHeldBy[] = {"stand", "hung", "arc", "track"};
 
 /// Every address that changes something, as routes.def lists them.
 struct Address {

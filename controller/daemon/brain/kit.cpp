@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A lamp without a profile: its slots are raised while a person looks, and what the person saw
 // becomes a profile file and an entry of the studio file.
+#include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
@@ -56,6 +57,32 @@ interview::LearntLamp learnt(const panel::LearnLamp& seen) {
   return lamp;
 }
 
+/// The lamp's entry in the studio file: patch, and what holds it.
+core::Result<interview::Lamp> entry_of(const panel::LearnLamp& seen, const std::string& profile) {
+  const auto place = studio::place_from_words(seen.place);
+  if (!place) return place.problems();
+  const auto far_end = studio::place_from_words(seen.far_end);
+  if (!far_end) return far_end.problems();
+  const auto held = std::find(std::begin(panel::kHeldBy), std::end(panel::kHeldBy), seen.held);
+  interview::Lamp lamp;
+  lamp.name = seen.name;
+  lamp.role = seen.role;
+  lamp.profile = profile;
+  lamp.mode = interview::kLearntMode;
+  lamp.universe = seen.universe;
+  lamp.address = seen.address;
+  lamp.slots = static_cast<int>(seen.slots.size());
+  lamp.place = *place;
+  lamp.held = static_cast<interview::Held>(held - std::begin(panel::kHeldBy));
+  lamp.motor = {std::max<int>(seen.motor_slot, lamp.slots + 1),
+                seen.motor_bits / 8,
+                seen.over,
+                core::radians(seen.travel_deg),
+                *far_end,
+                seen.along};
+  return lamp;
+}
+
 }  // namespace
 
 void Brain::carry_out(const panel::TrySlots& slots, const panel::Answer& answer) {
@@ -72,19 +99,10 @@ void Brain::carry_out(const panel::LearnLamp& seen, const panel::Answer& answer)
   const interview::LearntLamp lamp = learnt(seen);
   const auto profile = interview::profile_yaml(lamp);
   if (!profile) return answer({refusal_of(profile.problems())});
-  const auto place = studio::place_from_words(seen.place);
-  if (!place) return answer({refusal_of(place.problems())});
-  const interview::Lamp entry{seen.name,
-                              seen.role,
-                              lamp.profile,
-                              interview::kLearntMode,
-                              seen.universe,
-                              seen.address,
-                              static_cast<int>(seen.slots.size()),
-                              *place,
-                              seen.on_stand};
+  const auto entry = entry_of(seen, lamp.profile);
+  if (!entry) return answer({refusal_of(entry.problems())});
   const std::string lines =
-      interview::lamp_yaml(entry, design::estimated_aim(studio_), std::nullopt);
+      interview::lamp_yaml(*entry, design::estimated_aim(studio_), std::nullopt);
   const fs::path file = studio_.file.parent_path() / "fixtures" / (lamp.profile + ".yaml");
   Json json = {{"profile", lamp.profile},  {"profile_file", file.string()},
                {"profile_yaml", *profile}, {"studio_file", studio_.file.string()},

@@ -13,11 +13,26 @@
 
 namespace chiaro::daemon::interview {
 
+/// A stand is moved by a person, an arc and a track by a motor; what hangs stays. In the order of
+/// panel::kHeldBy, their names.
+enum class Held { stand, hung, arc, track };
+
+/// What moves a lamp that a motor moves. Its slots follow the lamp's own in the same patch.
+struct Motor {
+  int slot = 2;       ///< the first, counted from the lamp's first, which is 1
+  int bytes = 2;      ///< 1 or 2
+  bool over = false;  ///< an arc over the sitter; else round the sitter at the lamp's height
+  double travel = core::radians(60);  ///< of an arc: each way from where the lamp is
+  core::Spherical far_end;            ///< of a track that begins at the lamp's place
+  double along = 0.5;                 ///< 0..1: where on its track the lamp hangs now
+};
+
 struct Lamp {
   std::string name, role, profile, mode;
   int universe = 1, address = 1, slots = 1;
-  core::Spherical place;
-  bool on_stand = true;  ///< else it hangs where it hangs
+  core::Spherical place;  ///< on a track: one end of it
+  Held held = Held::stand;
+  Motor motor{};  ///< of arc and track only
 };
 
 struct Answers {

@@ -9,6 +9,7 @@
 #include "controller/daemon/interview/dialogue.h"
 #include "controller/daemon/interview/learning.h"
 #include "controller/daemon/interview/questions.h"
+#include "controller/panel/gestures.h"
 #include "controller/studio/reading/text.h"
 #include "controller/studio/words.h"
 
@@ -102,14 +103,14 @@ void ask_wire(Dialogue& dialogue, Answers& answers) {
 
 struct Usual {
   const char *role, *profile, *place;
-  bool on_stand;
+  Held held;
 };
 /// What most rooms have, in the order in which people name their lamps.
 constexpr Usual kUsual[] = {
-    {"key", "generic/bicolour-panel", "45 left, 35 up, 1.8 m", true},
-    {"fill", "generic/bicolour-panel", "40 right, 10 up, 2 m", true},
-    {"back", "generic/daylight-dimmer", "145 left, 30 up, 1.6 m", false},
-    {"background", "generic/rgbw", "120 right, 20 down, 1.8 m", false},
+    {"key", "generic/bicolour-panel", "45 left, 35 up, 1.8 m", Held::stand},
+    {"fill", "generic/bicolour-panel", "40 right, 10 up, 2 m", Held::stand},
+    {"back", "generic/daylight-dimmer", "145 left, 30 up, 1.6 m", Held::hung},
+    {"background", "generic/rgbw", "120 right, 20 down, 1.8 m", Held::hung},
 };
 
 std::optional<Lamp> overlapped(const std::vector<Lamp>& lamps, int universe, int first, int slots) {
@@ -202,17 +203,76 @@ std::string usual_place(const Usual& usual, const Answers& answers) {
   return studio::place_in_words(place);
 }
 
-void ask_place(Dialogue& dialogue, const Answers& answers, const Usual& usual, Lamp& lamp) {
-  lamp.on_stand = dialogue.ask<bool>("  On a stand that a person may move (yes, no)",
-                                     usual.on_stand ? "yes" : "no", yes_or_no());
+core::Spherical ask_where(Dialogue& dialogue, const Answers& answers, const std::string& question,
+                          const std::string& otherwise) {
   const auto in_the_room = [&](const std::string& line) -> core::Result<core::Spherical> {
     const auto place = studio::place_from_words(line);
     if (!place) return place;
     const std::string why = misplaced(*place, answers);
     return why.empty() ? place : unclear(why);
   };
-  lamp.place = dialogue.ask<core::Spherical>("  Where it is, seen from the sitter",
-                                             usual_place(usual, answers), in_the_room);
+  return dialogue.ask<core::Spherical>(question, otherwise, in_the_room);
+}
+
+/// The slots of a motor count as the lamp's own from now on: no other lamp may have them.
+void ask_motor(Dialogue& dialogue, const Answers& answers, Lamp& lamp) {
+  lamp.motor.bytes = dialogue.ask<std::string>("  Its motor listens to 8 or 16 bits", "16",
+                                               one_of({"8", "16"})) == "8"
+                         ? 1
+                         : 2;
+  const auto free_one = [&](const std::string& line) -> core::Result<int> {
+    const auto slot = a_whole_number(lamp.slots + 1, 512)(line);
+    if (!slot) return slot;
+    const int first = lamp.address + *slot - 1;
+    if (first + lamp.motor.bytes - 1 > 512) return unclear("the motor's slots would run past 512");
+    if (const auto other = overlapped(answers.lamps, lamp.universe, first, lamp.motor.bytes))
+      return unclear("that slot belongs to " + in_quotes(other->name));
+    return *slot;
+  };
+  lamp.motor.slot =
+      dialogue.ask<int>("  The motor's first slot, counted from the lamp's first as 1",
+                        std::to_string(lamp.slots + 1), free_one);
+  lamp.slots = lamp.motor.slot + lamp.motor.bytes - 1;
+}
+
+void ask_track(Dialogue& dialogue, const Answers& answers, const Usual& usual, Lamp& lamp) {
+  lamp.place = ask_where(dialogue, answers, "  One end of its track, seen from the sitter",
+                         usual_place(usual, answers));
+  core::Spherical mirrored = lamp.place;
+  mirrored.azimuth = -mirrored.azimuth;
+  while (!dialogue.ended()) {
+    lamp.motor.far_end = ask_where(dialogue, answers, "  The other end of its track",
+                                   studio::place_in_words(mirrored));
+    if (core::distance(core::position(answers.aim(), lamp.place),
+                       core::position(answers.aim(), lamp.motor.far_end)) > 0.1)
+      break;
+    dialogue.complain({unclear("both ends are in the same place")});
+    mirrored.azimuth += core::radians(90);
+  }
+  lamp.motor.along =
+      dialogue.ask<int>("  How far along it hangs now, in per cent", "50", a_whole_number(0, 100)) /
+      100.0;
+}
+
+void ask_place(Dialogue& dialogue, const Answers& answers, const Usual& usual, Lamp& lamp) {
+  const std::vector<std::string> ways(std::begin(panel::kHeldBy), std::end(panel::kHeldBy));
+  const auto held =
+      dialogue.ask<std::string>("  How it is held: " + studio::reading::any_of(ways),
+                                panel::kHeldBy[static_cast<std::size_t>(usual.held)], one_of(ways));
+  lamp.held = static_cast<Held>(std::find(ways.begin(), ways.end(), held) - ways.begin());
+  if (lamp.held == Held::track) {
+    ask_track(dialogue, answers, usual, lamp);
+    return ask_motor(dialogue, answers, lamp);
+  }
+  lamp.place = ask_where(dialogue, answers, "  Where it is, seen from the sitter",
+                         usual_place(usual, answers));
+  if (lamp.held != Held::arc) return;
+  lamp.motor.over = dialogue.ask<std::string>("  The arc goes round or over the sitter", "round",
+                                              one_of({"round", "over"})) == "over";
+  lamp.motor.travel =
+      dialogue.ask<double>("  How far it may travel from there, each way", "60 deg",
+                           a_quantity(Measure::angle, {core::radians(1), core::kPi}));
+  ask_motor(dialogue, answers, lamp);
 }
 
 Lamp ask_lamp(Dialogue& dialogue, const studio::Folders& folders, Answers& answers, Wire& wire,

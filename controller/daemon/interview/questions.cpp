@@ -36,14 +36,6 @@ Dialogue::Understand<int> a_whole_number(int least, int most) {
   };
 }
 
-Dialogue::Understand<bool> yes_or_no() {
-  return [](const std::string& line) -> core::Result<bool> {
-    if (line == "y" || line == "yes" || line == "Yes") return true;
-    if (line == "n" || line == "no" || line == "No") return false;
-    return unclear("please answer yes or no");
-  };
-}
-
 Dialogue::Understand<std::string> one_of(std::vector<std::string> choices) {
   return [choices = std::move(choices)](const std::string& line) -> core::Result<std::string> {
     if (std::find(choices.begin(), choices.end(), line) != choices.end()) return line;

@@ -16,7 +16,6 @@ namespace chiaro::daemon::interview {
 /// sense at a terminal ("2.6" for metres).
 Dialogue::Understand<double> a_quantity(studio::reading::Measure measure, core::Range bounds);
 Dialogue::Understand<int> a_whole_number(int least, int most);
-Dialogue::Understand<bool> yes_or_no();
 Dialogue::Understand<std::string> one_of(std::vector<std::string> words);
 /// Letters, digits, '-', '_', '.', spaces, and none of `taken`.
 Dialogue::Understand<std::string> a_name(std::vector<std::string> taken);

@@ -114,6 +114,49 @@ std::string hung(const Lamp& lamp, const core::AimFrame& aim, std::optional<doub
   return "    mount: {fixed: {at: " + vector(at) + ", aim_at: " + vector(aim_at) + "}}\n";
 }
 
+std::string axis(const Motor& motor) {
+  return "axis: {channel: " + std::to_string(motor.slot) +
+         ", bits: " + std::to_string(8 * motor.bytes) + "}";
+}
+
+/// Through where the lamp is now: round the sitter at its height, or upright over the sitter.
+std::string arc(const Lamp& lamp, const core::AimFrame& aim) {
+  const core::Vec3 from_aim = core::position(aim, lamp.place) - aim.origin;
+  const double front = core::dot(from_aim, aim.towards_camera),
+               side = core::dot(from_aim, aim.camera_right);
+  const bool over = lamp.motor.over;
+  const core::Vec3 centre =
+      aim.origin + (over ? side * aim.camera_right : core::Vec3{0, 0, from_aim.z});
+  const double across = over ? from_aim.z : side, at = std::atan2(across, front);
+  return "    mount:\n      arc:\n        centre: " + vector(centre) +
+         "\n        radius: " + number(std::hypot(across, front)) + " m\n        angle: " +
+         span(std::floor(core::degrees(at - lamp.motor.travel)),
+              std::ceil(core::degrees(at + lamp.motor.travel)), " deg") +
+         "\n        at: " + degrees(at) + "\n        plane: " + (over ? "vertical" : "horizontal") +
+         "\n        " + axis(lamp.motor) + "\n";
+}
+
+std::string track(const Lamp& lamp, const core::AimFrame& aim) {
+  return "    mount:\n      track:\n        from: " + vector(core::position(aim, lamp.place)) +
+         "\n        to: " + vector(core::position(aim, lamp.motor.far_end)) +
+         "\n        at: " + number(100 * lamp.motor.along, 1) + " %\n        " + axis(lamp.motor) +
+         "\n";
+}
+
+std::string mount(const Lamp& lamp, const core::AimFrame& aim, std::optional<double> wall) {
+  switch (lamp.held) {
+    case Held::stand:
+      return stand(lamp);
+    case Held::hung:
+      return hung(lamp, aim, wall);
+    case Held::arc:
+      return arc(lamp, aim);
+    case Held::track:
+      return track(lamp, aim);
+  }
+  return "";
+}
+
 std::string outputs(const Answers& a) {
   std::set<int> universes;
   for (const Lamp& lamp : a.lamps) universes.insert(lamp.universe);
@@ -130,8 +173,7 @@ std::string outputs(const Answers& a) {
 
 std::string lamp_yaml(const Lamp& lamp, const core::AimFrame& aim, std::optional<double> wall) {
   return "  " + named(lamp.name) + ":\n    role: " + lamp.role + "\n    profile: " + lamp.profile +
-         "\n    mode: " + named(lamp.mode) + "\n" +
-         (lamp.on_stand ? stand(lamp) : hung(lamp, aim, wall)) +
+         "\n    mode: " + named(lamp.mode) + "\n" + mount(lamp, aim, wall) +
          "    patch: {universe: " + std::to_string(lamp.universe) +
          ", address: " + std::to_string(lamp.address) + "}\n";
 }

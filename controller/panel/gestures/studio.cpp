@@ -95,6 +95,24 @@ void read_light(Fields& fields, LearnLamp& lamp) {
   if (lamp.cct.least > lamp.cct.most) std::swap(lamp.cct.least, lamp.cct.most);
 }
 
+void read_held(Fields& fields, const State& state, LearnLamp& lamp) {
+  lamp.held = fields.text("held").value_or(lamp.held);
+  if (std::find(std::begin(kHeldBy), std::end(kHeldBy), lamp.held) == std::end(kHeldBy))
+    fields.fail(422, "'" + lamp.held + "' holds no lamp", "held",
+                "send 'stand', 'hung', 'arc' or 'track'");
+  lamp.over = fields.flag("over").value_or(lamp.over);
+  lamp.travel_deg = fields.number("travel_deg", {1, 180}).value_or(lamp.travel_deg);
+  lamp.far_end = fields.text("far_end").value_or(lamp.far_end);
+  lamp.along = fields.number("along", {0, 1}).value_or(lamp.along);
+  lamp.motor_bits = fields.number("motor_bits", {8, 16}).value_or(16) < 12 ? 8 : 16;
+  const auto own = static_cast<double>(lamp.slots.size());
+  lamp.motor_slot =
+      static_cast<std::uint16_t>(fields.number("motor_slot", {own + 1, 512}).value_or(own + 1));
+  if (lamp.held != "arc" && lamp.held != "track") return;
+  for (int i = 0; i < lamp.motor_bits / 8; ++i)
+    check_free(fields, state, lamp.universe, lamp.address + lamp.motor_slot - 1 + i);
+}
+
 }  // namespace
 
 Made track_subject(const Request& request, const Words&, const State&) {
@@ -163,7 +181,7 @@ Made learn_lamp(const Request& request, const Words&, const State& state) {
     check_free(fields, state, lamp.universe, lamp.address + static_cast<int>(i));
   read_light(fields, lamp);
   lamp.place = fields.text("place").value_or(lamp.place);
-  lamp.on_stand = fields.flag("on_stand").value_or(true);
+  read_held(fields, state, lamp);
   lamp.add = fields.flag("add").value_or(false);
   return checked(fields, lamp);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `chiaro new`, answered through a pipe.
+#include <cmath>
 #include <fstream>
 #include <gtest/gtest.h>
 
@@ -57,7 +58,7 @@ TEST_F(NewCommand, EnterAloneMakesAStudioThatLoads) {
 
 TEST_F(NewCommand, AnswersEndUpInTheFile) {
   const std::string lamp =
-      "main light\nkey\ngeneric/rgbw\n8ch-16bit\n7\n100\nyes\n47 left, 38 up, 1.6 m\n";
+      "main light\nkey\ngeneric/rgbw\n8ch-16bit\n7\n100\nstand\n47 left, 38 up, 1.6 m\n";
   ASSERT_EQ(run(kRoom + "1\n" + lamp), ports::Exit::done) << fake_.err.str();
   const studio::Studio studio = loaded();
   EXPECT_EQ(studio.name, "Attic");
@@ -75,7 +76,7 @@ TEST_F(NewCommand, AnswersEndUpInTheFile) {
 }
 
 TEST_F(NewCommand, ALampThatHangsStandsWhereItWasSaidToBe) {
-  const std::string lamp = "back\nback\n\n\n\n\nno\nstraight behind, level, 1.5 m\n";
+  const std::string lamp = "back\nback\n\n\n\n\nhung\nstraight behind, level, 1.5 m\n";
   ASSERT_EQ(run(kRoom + "1\n" + lamp), ports::Exit::done) << fake_.err.str();
   const auto mount = std::get<studio::FixedMount>(loaded().fixtures.at(0).mount);
   EXPECT_NEAR(mount.at.x, 0, 1e-3);
@@ -85,7 +86,7 @@ TEST_F(NewCommand, ALampThatHangsStandsWhereItWasSaidToBe) {
 
 TEST_F(NewCommand, BadAnswersAreAskedAgainWithAReason) {
   const std::string first =
-      "key\nkei\nkey\ngeneric/bicolor-panel\n\n5ch\n2ch\n0\n1\n512\n1\nmaybe\nyes\nover there\n"
+      "key\nkei\nkey\ngeneric/bicolor-panel\n\n5ch\n2ch\n0\n1\n512\n1\nmaybe\nstand\nover there\n"
       "47 left, 38 up, 0.2 m\n47 left, 80 up, 3 m\n47 left, 38 up, 1.6 m\n";
   const std::string second = "key\nfill\n\n\n\n\n2\n3\n\n\n";
   ASSERT_EQ(run("\nnobody.ply\nperson\n9 m\n1.2 m\n" + std::string(9, '\n') + "none\n2\n" + first +
@@ -97,7 +98,7 @@ TEST_F(NewCommand, BadAnswersAreAskedAgainWithAReason) {
         "9 m is out of range (0.3 m to 2.5 m)", "'kei' is not one of key, fill",
         "did you mean 'generic/bicolour-panel'?", "'5ch' is not one of 2ch",
         "'0' is not a whole number from 1 to 63999", "it needs 2 slots and would run past 512",
-        "please answer yes or no", "what does 'over' mean?",
+        "'maybe' is not one of stand, hung, arc and track", "what does 'over' mean?",
         "a lamp comes no nearer to a sitter than 0.6 m", "above the ceiling (3 m)",
         "there is a lamp called 'key' already", "that overlaps 'key' (1 to 2) (address 3 is free)"})
     EXPECT_TRUE(said(words)) << words << "\n" << fake_.err.str();
@@ -134,7 +135,7 @@ TEST_F(NewCommand, QuotesAndBackslashesInANameSurvive) {
 
 TEST_F(NewCommand, ALampWithoutAProfileIsLearnedSlotBySlot) {
   const std::string lamp =
-      "odd panel\nkey\nlearn\n3\n1\n21\ndimmer\nagain\nfine\ncct\n4000 cd\nyes\n\n";
+      "odd panel\nkey\nlearn\n3\n1\n21\ndimmer\nagain\nfine\ncct\n4000 cd\nstand\n\n";
   ASSERT_EQ(run(kRoom + "1\n" + lamp), ports::Exit::done) << fake_.err.str();
   const studio::Studio studio = loaded();
   const studio::Fixture& learned = studio.fixtures.at(0);
@@ -147,8 +148,51 @@ TEST_F(NewCommand, ALampWithoutAProfileIsLearnedSlotBySlot) {
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "fixtures/own/odd-panel.yaml"));
 }
 
+TEST_F(NewCommand, AnArcRoundTheSitterGoesThroughWhereItsLampIsNow) {
+  const std::string lamp =
+      "key\nkey\ngeneric/dimmer\n1ch\n1\n21\narc\n45 left, 30 up, 2 m\nround\n50 deg\n16\n3\n";
+  const std::string next = "fill\nfill\ngeneric/dimmer\n1ch\n1\n24\n25\nstand\n\n";
+  ASSERT_EQ(run(kRoom + "2\n" + lamp + next), ports::Exit::done) << fake_.err.str();
+  const studio::Studio studio = loaded();
+  const auto& arc = std::get<studio::ArcMount>(studio.fixtures.at(0).mount);
+  EXPECT_FALSE(arc.vertical);
+  EXPECT_NEAR(arc.radius, 2 * std::cos(core::radians(30)), 1e-3);
+  EXPECT_NEAR(arc.centre.z, 1.3 + 2 * std::sin(core::radians(30)), 1e-3);
+  EXPECT_NEAR(core::degrees(arc.at), -45, 0.1);
+  EXPECT_NEAR(core::degrees(arc.angle.least), -95, 1);
+  EXPECT_EQ(arc.axis, "channel:3");
+  EXPECT_EQ(arc.axis_bytes, 2);
+  EXPECT_EQ(studio.fixtures.at(0).footprint(), 4);
+  EXPECT_TRUE(said("that overlaps 'key' (21 to 24)")) << "the motor's slots are taken";
+}
+
+TEST_F(NewCommand, AnArcOverTheSitterStandsUpright) {
+  const std::string lamp =
+      "key\nkey\ngeneric/dimmer\n1ch\n\n\narc\n40 right, 50 up, 1.5 m\nover\n20\n8\n\n";
+  ASSERT_EQ(run(kRoom + "1\n" + lamp), ports::Exit::done) << fake_.err.str();
+  const auto arc = std::get<studio::ArcMount>(loaded().fixtures.at(0).mount);
+  EXPECT_TRUE(arc.vertical);
+  EXPECT_NEAR(arc.centre.x, 1.5 * std::cos(core::radians(50)) * std::sin(core::radians(40)), 1e-3);
+  EXPECT_NEAR(arc.centre.z, 1.3, 1e-3);
+  EXPECT_EQ(arc.axis, "channel:2");
+  EXPECT_EQ(arc.axis_bytes, 1);
+}
+
+TEST_F(NewCommand, ATrackRunsFromOneEndToTheOther) {
+  const std::string lamp =
+      "rail\nback\ngeneric/dimmer\n1ch\n\n\ntrack\n150 left, 30 up, 1.6 m\n"
+      "150 left, 30 up, 1.6 m\n150 right, 30 up, 1.6 m\n25\n16\n\n";
+  ASSERT_EQ(run(kRoom + "1\n" + lamp), ports::Exit::done) << fake_.err.str();
+  const auto track = std::get<studio::TrackMount>(loaded().fixtures.at(0).mount);
+  EXPECT_NEAR(track.from.x, -track.to.x, 1e-3);
+  EXPECT_NEAR(track.from.y, track.to.y, 1e-3);
+  EXPECT_NEAR(track.at, 0.25, 1e-9);
+  EXPECT_EQ(track.axis, "channel:2");
+  EXPECT_TRUE(said("both ends are in the same place"));
+}
+
 TEST_F(NewCommand, WhatGivesNoLightIsAskedAgain) {
-  const std::string lamp = "odd\nkey\nlearn\n1\n\n\npan\n\ndimmer\n\nyes\n\n";
+  const std::string lamp = "odd\nkey\nlearn\n1\n\n\npan\n\ndimmer\n\nstand\n\n";
   ASSERT_EQ(run(kRoom + "1\n" + lamp), ports::Exit::done) << fake_.err.str();
   EXPECT_TRUE(said("no slot gave light"));
 }

@@ -27,9 +27,10 @@ const sights: [value: string, words: string][] = [
 /** The daemon lets slots fall after ten seconds of silence. */
 const repeat = 3000;
 
-function input(id: string, label: string, attributes: Record<string, unknown>) {
+function input(id: string, words: string, attributes: Record<string, unknown>) {
   const field = el('input', { id, ...attributes }) as HTMLInputElement;
-  return { field, node: el('label', { for: id }, el('span', {}, label), field) };
+  const label = el('span', {}, words);
+  return { field, label, node: el('label', { for: id }, label, field) };
 }
 
 function select(id: string, label: string, options: [string, string][]) {
@@ -94,9 +95,38 @@ function makeQuestions() {
   const address = input('lamp-address', 'First slot', { type: 'number', min: '1', max: '512', value: '1' });
   const count = input('lamp-count', 'Slots to look at', { type: 'number', min: '1', max: '32', value: '6' });
   const place = input('lamp-place', 'Where it is, seen from the sitter', { type: 'text', value: '45 left, 35 up, 1.8 m' });
-  const stand = input('lamp-stand', 'On a stand that may be moved', { type: 'checkbox', checked: true });
+  const held = select('lamp-held', 'How it is held', [
+    ['stand', 'On a stand'], ['hung', 'Hung, it stays'], ['arc', 'On a motorised arc'], ['track', 'On a motorised track'],
+  ]);
+  const over = select('lamp-over', 'The arc goes', [['round', 'Round the sitter'], ['over', 'Over the sitter']]);
+  const travel = input('lamp-travel', 'Travels, each way (degrees)', { type: 'number', min: '1', max: '180', value: '60' });
+  const farEnd = input('lamp-far-end', 'The other end of the track', { type: 'text', value: '45 right, 35 up, 1.8 m' });
+  const along = input('lamp-along', 'Hangs along it now (per cent)', { type: 'number', min: '0', max: '100', value: '50' });
+  const bits = select('lamp-bits', 'Its motor listens to', [['16', '16 bits, two slots'], ['8', '8 bits, one slot']]);
   const output = input('lamp-output', 'Candela at full (a guess will do)', { type: 'number', min: '1', value: '5000' });
-  return { name, role, universe, address, count, place, stand, output };
+  const node = el('div.form', {}, role.node, output.node, held.node, place.node, over.node, travel.node, farEnd.node, along.node, bits.node);
+  const update = () => {
+    const [arc, track] = [held.field.value === 'arc', held.field.value === 'track'];
+    for (const { node: question } of [over, travel]) show(question, arc);
+    for (const { node: question } of [farEnd, along]) show(question, track);
+    show(bits.node, arc || track);
+    setText(place.label, track ? 'One end of the track' : 'Where it is, seen from the sitter');
+  };
+  held.field.onchange = update;
+  update();
+  /** What holds the lamp, as the daemon wants it. */
+  const answers = () => ({
+    role: role.field.value,
+    output_cd: Number(output.field.value),
+    place: place.field.value,
+    held: held.field.value,
+    over: over.field.value === 'over',
+    travel_deg: Number(travel.field.value),
+    far_end: farEnd.field.value,
+    along: Number(along.field.value) / 100,
+    motor_bits: Number(bits.field.value),
+  });
+  return { name, universe, address, count, node, answers };
 }
 
 export function makeLearn(actions: Actions): (scene: Scene) => void {
@@ -136,13 +166,10 @@ export function makeLearn(actions: Actions): (scene: Scene) => void {
   const send = async (add: boolean) => {
     const learnt = await actions.learn({
       name: ask.name.field.value.trim(),
-      role: ask.role.field.value,
+      ...ask.answers(),
       universe: universe(),
       address: Number(ask.address.field.value),
       slots: slots.map((slot) => slot.sees()),
-      place: ask.place.field.value,
-      on_stand: ask.stand.field.checked,
-      output_cd: Number(ask.output.field.value),
       add,
     });
     if (learnt) showResult(result, learnt);
@@ -153,7 +180,7 @@ export function makeLearn(actions: Actions): (scene: Scene) => void {
     { hidden: true },
     el('p.hint', {}, 'Raise one slot, look at the lamp, say what you see. Leave the dimmer up while you look at colours.'),
     list,
-    el('div.form', {}, ask.role.node, ask.place.node, ask.output.node, ask.stand.node),
+    ask.node,
     el(
       'div.acts',
       {},
