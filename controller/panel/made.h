@@ -21,7 +21,8 @@ Made checked(Fields& fields, Gesture gesture);
 /// A whole number from an address; nothing when it is none.
 std::optional<std::uint64_t> number_of(const std::string& word);
 Refusal no_such(const std::string& kind, const std::string& word);
-/// Refuses bytes that are no picture before any job starts on them.
+/// Refuses bytes that begin like no picture before any job starts on them. Quick: a large one is
+/// decoded elsewhere, off the loop.
 std::optional<Refusal> not_a_picture(const std::string& bytes, const std::string& where);
 
 // One for each line of routes.def.

@@ -100,6 +100,7 @@ Json json_of(const JobView& job, bool counters) {
     json["best"] = rounded(job.best);
     json["seconds"] = rounded(job.seconds);
   }
+  json["lit"] = job.lit;
   json["look"] = job.look ? Json(*job.look) : Json(nullptr);
   json["error"] = job.error ? json_of(*job.error) : Json(nullptr);
   return json;

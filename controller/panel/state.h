@@ -130,6 +130,7 @@ struct JobView {
   double best = 0, seconds = 0;
   std::optional<std::int64_t> look;
   std::optional<Refusal> error;
+  bool lit = false;  ///< a first answer is on the lamps, stands left where they are
 };
 
 struct OutputView {

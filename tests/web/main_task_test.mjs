@@ -60,15 +60,19 @@ test('work light shows the sitter evenly before any mood', async () => {
   assert.ok(Math.abs(Math.log2(key / fill)) < 0.1, `${key} lx and ${fill} lx`);
 });
 
-test('one click on Rembrandt lights the studio, and before and after can be compared', async () => {
+test('one click on Rembrandt lights the studio, and before and after can be compared', async (t) => {
   const seen = await page.evaluateHandle(() => {
-    const jobs = [];
+    const story = { clicked: 0, steps: [] };
+    document.addEventListener('click', () => (story.clicked = performance.now()), { capture: true, once: true });
     const socket = new WebSocket(`ws://${location.host}/api/v1/events`);
     socket.onmessage = ({ data }) => {
       const message = JSON.parse(data);
-      if (message.type === 'design') jobs.push(message.design.status);
+      const design = message.design ?? message.state.design;
+      const step = !design ? '' : design.status === 'running' && design.lit ? 'lit' : design.status;
+      if (story.clicked && step && step !== story.steps.at(-1)?.step)
+        story.steps.push({ step, ms: Math.round(performance.now() - story.clicked) });
     };
-    return jobs;
+    return story;
   });
   await faded();
   await page.locator('.card[data-mood=rembrandt]').click();
@@ -77,7 +81,14 @@ test('one click on Rembrandt lights the studio, and before and after can be comp
   await page.locator('#stage[data-kind=done]').waitFor();
   assert.match(await page.locator('#stage .facts').innerText(), /Key to fill\s+[\d.]+:1/);
   assert.ok((await brightness('before')) > 20);
-  await until('no event told of the job', async () => (await seen.jsonValue()).includes('done'));
+  const steps = async () => (await seen.jsonValue()).steps;
+  await until('no event told of the job', async () => (await steps()).some(({ step }) => step === 'done'));
+  const told = (await steps()).map(({ step }) => step);
+  // The lamps change before places have been looked for, and each step is told once and in order.
+  const order = ['queued', 'running', 'lit', 'done'];
+  assert.ok(told.includes('lit'), told.join());
+  assert.deepEqual(told, order.filter((step) => told.includes(step)));
+  t.diagnostic((await steps()).map(({ step, ms }) => `${step} after ${ms} ms`).join(', '));
 });
 
 test('reference, preview and camera lie side by side, and the camera sees the light', async () => {

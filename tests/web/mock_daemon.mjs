@@ -112,7 +112,7 @@ export function working() {
   return {
     ...quiet(),
     design: { job: 5, mood: 'rembrandt', title: 'Rembrandt', status: 'running', stage: 'search',
-      trial: 1240, trials: 4000, best: 0.0524, seconds: 0.31, look: null, error: null },
+      trial: 1240, trials: 4000, best: 0.0524, seconds: 0.31, lit: false, look: null, error: null },
   };
 }
 

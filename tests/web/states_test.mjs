@@ -186,11 +186,16 @@ test('an unknown lamp is learned slot by slot, and its slots fall when one looks
   assert.deepEqual(raised.body, { universe: 1, slots: { 9: 255 } });
   await page.getByLabel('What slot 9 does').selectOption('dimmer');
   await page.getByLabel('What slot 10 does').selectOption('fine');
+  assert.equal(await page.getByLabel('Travels, each way (degrees)').isVisible(), false);
+  await page.getByLabel('How it is held').selectOption('arc');
+  await page.getByLabel('Travels, each way (degrees)').fill('40');
   daemon.answer('POST /api/v1/kit', { profile: 'own/old-panel', profile_file: '/studios/fixtures/own/old-panel.yaml',
     profile_yaml: 'profile: own/old-panel', studio_file: '/studios/portrait.yaml', studio_lines: '  old panel:', added: false });
   await page.getByRole('button', { name: 'Show the profile' }).click();
   const learnt = await daemon.click((r) => r.path === '/api/v1/kit');
   assert.deepEqual(learnt.body.slots.map((slot) => slot.sees), ['dimmer', 'fine']);
+  assert.equal(learnt.body.held, 'arc');
+  assert.equal(learnt.body.travel_deg, 40);
   await page.locator('.learnt pre').first().waitFor();
   await page.getByRole('button', { name: 'Studio', exact: true }).click();
   await daemon.click((r) => r.method === 'DELETE' && r.path === '/api/v1/kit/slots');
@@ -225,6 +230,27 @@ test('a refused click says why, until it is closed', async () => {
   assert.match(await text('#refusal'), /The picture is empty\. Choose another\./);
   await page.getByRole('button', { name: 'Close' }).click();
   await page.locator('#refusal').waitFor({ state: 'hidden' });
+});
+
+test('what was refused is read wherever the page is scrolled to', async () => {
+  await open(done());
+  daemon.refuse('POST /api/v1/undo', 409, { what: 'there is nothing to go back to', where: '', remedy: 'choose a mood' });
+  await page.getByRole('button', { name: 'Undo' }).click();
+  await page.locator('#refusal').waitFor();
+  await page.mouse.move(900, 700);
+  await page.mouse.wheel(0, 400);
+  await page.waitForFunction(() => scrollY > 100);
+  assert.ok(await page.evaluate(() => {
+    const { left, top, width, height } = document.querySelector('#refusal strong').getBoundingClientRect();
+    return document.elementFromPoint(left + width / 2, top + height / 2)?.closest('#refusal') !== null;
+  }));
+});
+
+test('a first answer on the lamps is told while places are still looked for', async () => {
+  const state = working();
+  state.design.lit = true;
+  await open(state);
+  assert.match(await text('#stage'), /Lit with the stands where they are/);
 });
 
 test('blackout is always in sight, tells its state and can be released', async () => {

@@ -111,18 +111,24 @@ class Brain final : public panel::Brain {
   void carry_out(const panel::MotionStop& stop, const panel::Answer& answer);
   void carry_out(const panel::Blackout& blackout, const panel::Answer& answer);
   void carry_out(const panel::AddMood& mood, const panel::Answer& answer);
+  void keep_mood(panel::AddMood mood, const panel::Answer& answer);
   void carry_out(const panel::RemoveMood& mood, const panel::Answer& answer);
 
   // Jobs and looks.
-  core::Result<design::Goal> goal_of(const panel::StartDesign& ask) const;
+  core::Result<GoalReader> goal_of(const panel::StartDesign& ask) const;
   /// Cancels what runs and gives the planner `task` in its place; answers 202.
   void begin(const panel::StartDesign& ask, DesignTask task, const panel::Answer& answer);
   /// Even light from the front, as far as the lamps reach.
   studio::Rig work_light() const;
+  design::Look flat_look() const;
   void renew_work_light(double fade_s);
   bool drawn_on_our_sitter(const panel::StartDesign& ask) const;
-  DesignTask task_of(const panel::StartDesign& ask, design::Goal goal) const;
-  void cancel_running();
+  DesignTask task_of(const panel::StartDesign& ask, GoalReader goal) const;
+  bool running() const { return job_ && job_->view.status <= panel::JobStatus::running; }
+  /// `back`: a first answer that is on the lamps already gives way to the live look again.
+  void cancel_running(bool back = true);
+  void first_light(std::uint64_t job, const studio::Rig& placed);
+  void take_back_first_light();
   void finished(std::uint64_t job, core::Result<Designed> result);
   void keep(const panel::StartDesign& ask, Designed designed);
   std::optional<Live> load(std::int64_t look, panel::Refusal& refusal) const;
@@ -196,6 +202,7 @@ class Brain final : public panel::Brain {
   bool dirty_ = true;
   std::shared_ptr<bool> here_ = std::make_shared<bool>(true);
   Worker errands_;  // slow talks with the hand
+  Worker reader_;   // photographs that were sent
   // Last: their threads use what is above through the loop only.
   Tracking tracking_;
   Planner planner_;

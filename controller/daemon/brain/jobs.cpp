@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-#include "controller/core/picture_file.h"
 #include "controller/daemon/brain/asked.h"
 #include "controller/daemon/brain/brain.h"
+#include "controller/daemon/brain/pictures.h"
 #include "controller/daemon/brain/refusals.h"
 
 namespace chiaro::daemon {
@@ -21,32 +21,27 @@ void keep_motors(studio::Studio& studio, const std::vector<core::FixtureState>& 
       if (states[i].has(dof)) studio.fixtures[i].initial.set(dof, states[i].get(dof));
 }
 
-core::Result<design::Goal> goal_of_picture(const std::string& bytes, const std::string& name,
-                                           design::Objective objective) {
-  auto picture = core::decode_picture(
-      {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, name);
-  if (!picture) return picture.problems();
-  design::ExampleGoal goal;
-  goal.name = name;
-  goal.exemplar = core::linear_at_most(*picture);
-  goal.objective = objective;
-  return design::Goal(std::move(goal));
+bool all_locked(const studio::Studio& studio, const Placements& placements) {
+  for (std::size_t i = 0; i < studio.fixtures.size(); ++i)
+    if (studio.fixtures[i].controlled && !placements.locked(i)) return false;
+  return !studio.fixtures.empty();
 }
 
 }  // namespace
 
-core::Result<design::Goal> Brain::goal_of(const panel::StartDesign& ask) const {
-  if (ask.ideal) return design::Goal(design::IdealGoal{});
+core::Result<GoalReader> Brain::goal_of(const panel::StartDesign& ask) const {
+  if (ask.ideal) return GoalReader([] { return ReadGoal{design::IdealGoal{}, ""}; });
   const auto objective = ask.wavelet ? design::Objective::wavelet : design::Objective::perceptual;
-  if (!ask.picture.empty()) return goal_of_picture(ask.picture, ask.title, objective);
-  for (const design::Mood& mood : moods_.moods) {
-    if (mood.name != ask.mood) continue;
-    auto goal = design::goal_of(mood, objective);
-    if (!goal) return goal.problems();
-    return design::Goal(std::move(*goal));
-  }
-  if (const auto own = store_->mood(ask.mood))
-    return goal_of_picture(own->picture, own->title, objective);
+  if (!ask.picture.empty()) return goal_like(ask.picture, ask.title, objective);
+  for (const design::Mood& mood : moods_.moods)
+    if (mood.name == ask.mood)
+      return GoalReader([mood, objective]() -> core::Result<ReadGoal> {
+        auto goal = design::goal_of(mood, objective);
+        if (!goal) return goal.problems();
+        return ReadGoal{*std::move(goal), ""};
+      });
+  if (auto own = store_->mood(ask.mood))
+    return goal_like(std::move(own->picture), own->title, objective);
   return core::Problem{{}, "the mood '" + ask.mood + "' is gone", "choose another"};
 }
 
@@ -61,7 +56,7 @@ bool Brain::drawn_on_our_sitter(const panel::StartDesign& ask) const {
          std::filesystem::equivalent(studio_.subjects.front().mesh, bust, code);
 }
 
-DesignTask Brain::task_of(const panel::StartDesign& ask, design::Goal goal) const {
+DesignTask Brain::task_of(const panel::StartDesign& ask, GoalReader goal) const {
   DesignTask task;
   task.studio = standing();
   task.goal = std::move(goal);
@@ -89,8 +84,9 @@ DesignTask Brain::task_of(const panel::StartDesign& ask, design::Goal goal) cons
   return task;
 }
 
-void Brain::cancel_running() {
-  if (!job_ || job_->view.status > panel::JobStatus::running) return;
+void Brain::cancel_running(bool back) {
+  if (!running()) return;
+  if (back) take_back_first_light();
   job_->board->stop = true;
   job_->view.status = panel::JobStatus::cancelled;
   ++counters_.designs_cancelled;
@@ -100,18 +96,32 @@ void Brain::cancel_running() {
 
 void Brain::carry_out(const panel::StartDesign& ask, const panel::Answer& answer) {
   if (ready_ && any_error(twin_problems_)) return answer({refusal_of(twin_problems_)});
+  if (all_locked(studio_, *placements_))
+    return answer({panel::Refusal{409,
+                                  "every lamp is locked",
+                                  "lock",
+                                  "unlock at least one: moods leave locked lamps alone",
+                                  {}}});
   auto goal = goal_of(ask);
   if (!goal) return answer({refusal_of(goal.problems())});
   begin(ask, task_of(ask, std::move(*goal)), answer);
 }
 
 void Brain::begin(const panel::StartDesign& ask, DesignTask task, const panel::Answer& answer) {
-  cancel_running();  // the newest click wins
+  cancel_running(!ask.apply_fade_s);  // the newest click wins
   Job job{{}, ask, task.board};
   job.view.job = ++jobs_;
   job.view.mood = ask.mood;
   job.view.title = ask.title;
   job_ = job;
+  const bool stands = std::any_of(
+      studio_.fixtures.begin(), studio_.fixtures.end(), [](const studio::Fixture& fixture) {
+        return std::holds_alternative<studio::StandMount>(fixture.mount);
+      });
+  if (ask.apply_fade_s && ask.move_stands && stands)
+    task.first_light = [this, here = here_, id = job.view.job](const studio::Rig& placed) {
+      if (*here) first_light(id, placed);
+    };
   planner_.add(std::move(task),
                [this, here = here_, id = job.view.job](core::Result<Designed> result) {
                  if (*here) finished(id, std::move(result));
@@ -120,8 +130,20 @@ void Brain::begin(const panel::StartDesign& ask, DesignTask task, const panel::A
   answer({{}, 202, fmt::format(R"({{"job":{}}})", job.view.job)});
 }
 
+void Brain::first_light(std::uint64_t id, const studio::Rig& placed) {
+  if (!running() || job_->view.job != id) return;
+  job_->view.lit = true;
+  console_->apply(studio_, placed, *job_->ask.apply_fade_s, world_.clock.now());
+  changed();
+}
+
+void Brain::take_back_first_light() {
+  if (!job_ || !job_->view.lit || !live_) return;
+  console_->apply(studio_, live_->look.placed, *job_->ask.apply_fade_s, world_.clock.now());
+}
+
 void Brain::carry_out(const panel::CancelDesign& cancel, const panel::Answer& answer) {
-  if (!job_ || job_->view.job != cancel.job || job_->view.status > panel::JobStatus::running)
+  if (!running() || job_->view.job != cancel.job)
     return answer({panel::Refusal{404, fmt::format("job {} is not running", cancel.job), "job",
                                   "it has ended, or never was"}});
   cancel_running();
@@ -141,6 +163,7 @@ void Brain::finished(std::uint64_t id, core::Result<Designed> result) {
     counters_.design_seconds += result->look.seconds;
     keep(job_->ask, std::move(*result));
   } else {
+    take_back_first_light();
     view.status = panel::JobStatus::failed;
     view.error = refusal_of(result.problems());
     view.seconds = seen.seconds;
@@ -162,7 +185,8 @@ void Brain::keep(const panel::StartDesign& ask, Designed designed) {
   record.json = std::move(designed.json);
   record.picture = std::move(designed.picture_png);
   record.placed_picture = std::move(designed.placed_png);
-  record.reference = ask.picture;
+  if (!ask.picture.empty())
+    record.reference = designed.reference.empty() ? ask.picture : std::move(designed.reference);
   const auto id = store_->save_look(record);
   if (!id) {
     job_->view.status = panel::JobStatus::failed;
@@ -213,16 +237,18 @@ void Brain::go_live(Live live, double fade_s, bool remember_last) {
 void Brain::solve_again(double fade_s) {
   if (!live_) return;
   panel::StartDesign ask = asked_from_json(live_->record.request, live_->record.reference);
-  if (ask.flat) return renew_work_light(fade_s);
+  const bool bent = steps_of(ask.nudges) != design::Nudge{};
+  if (ask.flat && !bent) return renew_work_light(fade_s);
   ask.move_stands = false;
   auto goal = can_be_solved(ask) ? goal_of(ask) : core::Problem{{}, "", ""};
-  if (!goal) {
+  if (!goal && !ask.flat) {
     // A look that came as a file has no goal to solve for: its levels are all there is.
     console_->apply(studio_, live_->look.placed, fade_s, world_.clock.now());
     return;
   }
   if (again_) again_->stop = true;
-  DesignTask task = task_of(ask, std::move(*goal));
+  DesignTask task = task_of(ask, goal ? std::move(*goal) : GoalReader{});
+  if (ask.flat) task.from = flat_look();  // bent again from where the lamps stand now
   keep_motors(task.studio, live_->look.placed.states);
   again_ = task.board;
   planner_.add(std::move(task), [this, here = here_, board = again_, id = live_->record.id,
@@ -240,6 +266,7 @@ void Brain::solved_again(std::int64_t id, double fade_s, core::Result<Designed> 
     return;
   }
   design::Look& look = live_->look;
+  if (asked_from_json(live_->record.request, "").flat) look.wanted = result->look.wanted;
   look.placed = result->look.placed;
   look.placed_judgement = result->look.placed_judgement;
   look.placed_picture = std::move(result->look.placed_picture);

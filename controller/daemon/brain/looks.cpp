@@ -7,6 +7,7 @@
 
 #include "controller/daemon/brain/asked.h"
 #include "controller/daemon/brain/brain.h"
+#include "controller/daemon/brain/pictures.h"
 #include "controller/daemon/brain/refusals.h"
 
 namespace chiaro::daemon {
@@ -117,6 +118,7 @@ void Brain::carry_out(const panel::ApplyLook& apply, const panel::Answer& answer
   panel::Refusal refusal;
   auto live = load(apply.id, refusal);
   if (!live) return answer({refusal});
+  cancel_running(false);  // the newest click wins
   go_live(std::move(*live), apply.fade_s, true);
   answer({{}, 200, fmt::format(R"({{"id":{}}})", apply.id)});
 }
@@ -135,6 +137,10 @@ void Brain::carry_out(const panel::DeleteLook& remove, const panel::Answer& answ
 
 void Brain::carry_out(const panel::Undo& undo, const panel::Answer& answer) {
   panel::Refusal refusal{409, "there is nothing to go back to", "", "choose a mood", {}};
+  if (running() && live_) {  // what is being looked for was the last click
+    cancel_running();
+    return answer({{}, 200, fmt::format(R"({{"id":{}}})", live_->record.id)});
+  }
   while (!history_.empty()) {
     const std::int64_t id = history_.back();
     history_.pop_back();
@@ -172,7 +178,23 @@ void Brain::carry_out(const panel::AddMood& mood, const panel::Answer& answer) {
     if (shipped.name == mood.name)
       return answer({panel::Refusal{
           409, "'" + mood.name + "' is a shipped mood", "name", "choose another name", {}}});
-  if (auto kept = store_->save_mood({mood.name, mood.title, mood.picture}); !kept)
+  // Fifty megapixels take a second to read: the loop has blackouts to hear of meanwhile.
+  reader_.add([this, here = here_, mood = std::make_shared<panel::AddMood>(mood), answer] {
+    auto kept = kept_picture(std::move(mood->picture), mood->title);
+    if (kept) mood->picture = std::move(*kept);
+    post_([this, here, mood, answer, problems = kept.problems()] {
+      if (!*here) return;
+      if (!problems.empty()) return answer({refusal_of(problems, 422)});
+      keep_mood(std::move(*mood), answer);
+    });
+  });
+}
+
+void Brain::keep_mood(panel::AddMood mood, const panel::Answer& answer) {
+  const std::string stem = mood.name;
+  for (int number = 2; !mood.replace && store_->mood(mood.name); ++number)
+    mood.name = stem + "-" + std::to_string(number);
+  if (auto kept = store_->save_mood({mood.name, mood.title, std::move(mood.picture)}); !kept)
     return answer({refusal_of(kept.problems(), 500)});
   changed();
   answer({{}, 201, fmt::format(R"({{"name":"{}"}})", mood.name)});

@@ -11,6 +11,8 @@
 namespace chiaro::daemon {
 namespace {
 
+constexpr const char* kWorkLight = "Work light";
+
 bool lights_the_front(const studio::Fixture& fixture) {
   return fixture.controlled &&
          (fixture.role == studio::Role::key || fixture.role == studio::Role::fill);
@@ -40,6 +42,15 @@ studio::Rig Brain::work_light() const {
   return rig;
 }
 
+design::Look Brain::flat_look() const {
+  design::Look look;
+  look.name = kWorkLight;
+  look.goal = "even light from the front";
+  look.wanted = look.placed = work_light();
+  look.judgement.verdict = look.placed_judgement.verdict = design::Verdict::reached;
+  return look;
+}
+
 void Brain::renew_work_light(double fade_s) {
   live_->look.wanted = live_->look.placed = work_light();
   live_->record.json = design::look_to_json(studio_, live_->look);
@@ -52,12 +63,10 @@ void Brain::renew_work_light(double fade_s) {
 void Brain::carry_out(const panel::WorkLight& light, const panel::Answer& answer) {
   panel::StartDesign ask;
   ask.flat = true;
-  ask.title = "Work light";
+  ask.title = kWorkLight;
   Live live;
-  live.look.name = live.record.name = ask.title;
-  live.look.goal = "even light from the front";
-  live.look.wanted = live.look.placed = work_light();
-  live.look.judgement.verdict = live.look.placed_judgement.verdict = design::Verdict::reached;
+  live.look = flat_look();
+  live.record.name = ask.title;
   live.record.verdict = design::name_of(design::Verdict::reached);
   live.record.request = asked_to_json(ask);
   live.record.json = design::look_to_json(studio_, live.look);
@@ -84,7 +93,7 @@ void Brain::carry_out(const panel::Nudge& nudge, const panel::Answer& answer) {
   ask.nudges.softer += nudge.by.softer;
   ask.nudges.warmer += nudge.by.warmer;
   ask.nudges.contrast += nudge.by.contrast;
-  DesignTask task = task_of(ask, design::IdealGoal{});
+  DesignTask task = task_of(ask, {});
   task.from = live_->look;
   task.nudge = steps_of(nudge.by);
   begin(ask, std::move(task), answer);

@@ -18,7 +18,7 @@ core::Result<Designed> packed(const studio::Studio& studio, design::Look look) {
   std::string json = design::look_to_json(studio, look);
   std::string picture = png_of(look.picture), placed = png_of(look.placed_picture);
   if (placed.empty()) placed = picture;
-  return Designed{std::move(look), std::move(json), std::move(picture), std::move(placed), {}};
+  return Designed{std::move(look), std::move(json), std::move(picture), std::move(placed), "", {}};
 }
 
 /// The camera's aspect at no more than 480 rows: sharp on a tablet, drawn in a moment.
@@ -88,6 +88,24 @@ void Planner::draw(DrawTask task, std::function<void(Drawn)> done) {
   });
 }
 
+Planner::Easel::Easel(std::shared_ptr<const render::Tracer> with, const studio::Camera& camera)
+    : tracer(std::move(with)),
+      view(render::see(tracer, camera, drawn_size(camera.size))),
+      field(tracer, camera),
+      map(field, view) {}
+
+/// With the light that walls and floor give back, as the planner reckoned with it.
+core::Picture Planner::Easel::picture(const studio::Studio& studio, const studio::Rig& rig) const {
+  const std::shared_ptr<const twin::Geometry> geometry(tracer, &tracer->geometry());
+  const twin::Scene scene = twin::lit_by(studio, geometry, rig);
+  core::Picture picture = render::picture(view, scene);
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+    if (scene.levels[i] > 0)
+      map.add_colour(field.from(scene.lights[i]), scene.lights[i].colour,
+                     scene.exposure_gain * scene.levels[i], picture);
+  return picture;
+}
+
 std::optional<Drawn> Planner::draw_now(const DrawTask& task, std::uint64_t number) {
   std::shared_ptr<const render::Tracer> tracer;
   {
@@ -96,17 +114,35 @@ std::optional<Drawn> Planner::draw_now(const DrawTask& task, std::uint64_t numbe
   }
   if (!tracer || number != drawings_) return std::nullopt;
   const studio::Camera& camera = task.studio.main_camera();
-  if (seen_with_ != tracer) view_ = render::see(tracer, camera, drawn_size(camera.size));
-  seen_with_ = tracer;
+  if (!easel_ || easel_->tracer != tracer) easel_ = std::make_unique<const Easel>(tracer, camera);
   const auto png = [&](const studio::Rig& rig) {
-    const std::shared_ptr<const twin::Geometry> geometry(tracer, &tracer->geometry());
-    return png_of(render::picture(*view_, twin::lit_by(task.studio, geometry, rig)));
+    return png_of(easel_->picture(task.studio, rig));
   };
   Drawn drawn;
   drawn.placed_png = png(task.placed);
   if (number != drawings_) return std::nullopt;  // somebody wants another by now
   drawn.wanted_png = task.wanted == task.placed ? drawn.placed_png : png(task.wanted);
   return drawn;
+}
+
+/// A search for places takes a second or two; levels alone a tenth of that, and what they cost is
+/// not lost: the look's own answer for the lamps as they stand asks for the same layers.
+void Planner::tell_first_light(const DesignTask& task, const design::Goal& goal) const {
+  design::Options options = task.options;
+  options.move_stands = false;
+  options.progress = nullptr;
+  const auto quick = design::design(task.studio, *layers_, goal, options);
+  if (!quick || task.board->stop) return;
+  post_([tell = task.first_light, placed = quick->placed] { tell(placed); });
+}
+
+core::Result<design::Look> Planner::found(DesignTask& task, std::string& reference) const {
+  if (task.from) return std::move(*task.from);
+  auto read = task.goal();
+  if (!read) return read.problems();
+  reference = std::move(read->reference);
+  if (task.first_light) tell_first_light(task, read->goal);
+  return design::design(task.studio, *layers_, read->goal, task.options);
 }
 
 core::Result<Designed> Planner::solve(DesignTask& task) const {
@@ -123,10 +159,14 @@ core::Result<Designed> Planner::solve(DesignTask& task) const {
     task.board->tell(progress, seconds());
   };
   task.board->started = true;
-  auto look = task.from ? core::Result<design::Look>(std::move(*task.from))
-                        : design::design(task.studio, *layers_, task.goal, task.options);
+  std::string reference;
+  auto look = found(task, reference);
   if (!look) return look.problems();
-  if (task.nudge == design::Nudge{}) return packed(task.studio, std::move(*look));
+  const auto with_reference = [&](core::Result<Designed> designed) {
+    if (designed) designed->reference = std::move(reference);
+    return designed;
+  };
+  if (task.nudge == design::Nudge{}) return with_reference(packed(task.studio, std::move(*look)));
   design::NudgeOptions options;
   options.locked = task.options.locked;
   auto bent = design::nudged(task.studio, *layers_, *look, task.nudge, options);
@@ -134,7 +174,7 @@ core::Result<Designed> Planner::solve(DesignTask& task) const {
   bent->look.seconds = seconds();
   auto designed = packed(task.studio, std::move(bent->look));
   if (designed) designed->by_hand = std::move(bent->by_hand);
-  return designed;
+  return with_reference(std::move(designed));
 }
 
 void Planner::add(DesignTask task, std::function<void(core::Result<Designed>)> done) {

@@ -16,6 +16,7 @@
 #include "controller/design/layers.h"
 #include "controller/design/nudge.h"
 #include "controller/ports/clock.h"
+#include "controller/render/bounce.h"
 #include "controller/render/view.h"
 
 namespace chiaro::daemon {
@@ -40,11 +41,21 @@ class JobBoard {
   Seen seen_;
 };
 
+/// What a look is to be like, with the picture as a store keeps it (empty: nothing to keep).
+struct ReadGoal {
+  design::Goal goal;
+  std::string reference;
+};
+/// Called once, on the planner's thread: a large photograph takes a second to read.
+using GoalReader = std::function<core::Result<ReadGoal>()>;
+
 struct DesignTask {
   studio::Studio studio;  ///< lamps placed where they stand, locked ones at their present level
-  design::Goal goal;
+  GoalReader goal;        ///< not asked when there is a look to bend
   design::Options options;
   std::shared_ptr<JobBoard> board;
+  /// Told on the loop before places are looked for: levels and colours for where the lamps stand.
+  std::function<void(const studio::Rig&)> first_light;
   std::optional<design::Look> from;  ///< no search: this look is bent by the nudge
   design::Nudge nudge;               ///< done to what was found, or to `from`
 };
@@ -52,6 +63,7 @@ struct DesignTask {
 struct Designed {
   design::Look look;
   std::string json, picture_png, placed_png;
+  std::string reference;             ///< of the goal that was read
   std::vector<std::string> by_hand;  ///< what lamps alone cannot do of a nudge
 };
 
@@ -80,6 +92,9 @@ class Planner {
 
  private:
   core::Result<Designed> solve(DesignTask& task) const;
+  /// The look that a task bends or searches for, before its nudge.
+  core::Result<design::Look> found(DesignTask& task, std::string& reference) const;
+  void tell_first_light(const DesignTask& task, const design::Goal& goal) const;
   std::optional<Drawn> draw_now(const DrawTask& task, std::uint64_t number);
 
   ports::Clock& clock_;
@@ -91,8 +106,15 @@ class Planner {
   // The painter's: the tracer is handed over by the worker.
   std::mutex tracer_mutex_;
   std::shared_ptr<const render::Tracer> tracer_;
-  std::shared_ptr<const render::Tracer> seen_with_;
-  std::optional<render::View> view_;
+  struct Easel {
+    std::shared_ptr<const render::Tracer> tracer;
+    render::View view;
+    render::BounceField field;
+    render::BounceMap map;
+    Easel(std::shared_ptr<const render::Tracer> with, const studio::Camera& camera);
+    core::Picture picture(const studio::Studio& studio, const studio::Rig& rig) const;
+  };
+  std::unique_ptr<const Easel> easel_;
   std::atomic<std::uint64_t> drawings_{0};
   Worker painter_, worker_;  // last: their threads use all the others
 };

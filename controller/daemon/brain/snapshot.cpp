@@ -89,6 +89,8 @@ double lux_on_dome(const studio::Studio& studio, const studio::Rig& rig,
   return lux;
 }
 
+/// Less than moonlight gives: nothing that a meter on a set would show.
+constexpr double kDarkLux = 0.05;
 /// A lamp that gives nothing need not be moved.
 constexpr double kWorthMoving = 0.002;
 
@@ -150,12 +152,12 @@ panel::FixtureView Brain::view_of(std::size_t index, const studio::Rig& rig) con
   const double level = view.sent.get(core::Dof::intensity);
   view.level = is_flash(fixture) ? core::flash_power_in_words(level) : level_in_words(level);
   view.lux = design::lux_at_face(standing(), rig, index);
-  view.light = view.lux > 0 ? core::illuminance_in_words(core::Lux{view.lux}) : "";
+  view.light = view.lux >= kDarkLux ? core::illuminance_in_words(core::Lux{view.lux}) : "";
   view.output_cd = standing().fixtures[index].output.value;
   view.measured = placements_->measured(index).has_value();
   if (const auto* patch = std::get_if<studio::DmxPatch>(&fixture.patch))
-    view.patch = {patch->universe, patch->address, fixture.profile.modes[fixture.mode].footprint};
-  if (view.sent.get(core::Dof::intensity) > 0) view.colour = colour_in_words(fixture, view.sent);
+    view.patch = {patch->universe, patch->address, fixture.footprint()};
+  if (level >= kOff) view.colour = colour_in_words(fixture, view.sent);
   view.manual = console_->held(index);
   constexpr auto kOwn = static_cast<std::size_t>(rig::Source::own);
   if (sent_ && index < sent_->sources[kOwn].fixtures.size())
@@ -185,7 +187,7 @@ std::optional<panel::LookView> Brain::live_view(const studio::Rig& rig) const {
   view.remedy = look.placed_judgement.remedy;
   if (const auto ratio = design::key_fill_ratio(standing(), look.placed))
     view.ratio = core::ratio_in_words(*ratio);
-  if (const double lux = lux_on_dome(standing(), rig, *placements_); lux > 0)
+  if (const double lux = lux_on_dome(standing(), rig, *placements_); lux >= kDarkLux)
     view.light = core::illuminance_in_words(core::Lux{lux});
   const panel::StartDesign ask = asked_from_json(live_->record.request, live_->record.reference);
   view.nudges = nudges_in_words(ask.nudges);
@@ -261,7 +263,7 @@ void Brain::renew_state() {
                        false, mood.words, design::turn_in_words(mood.sitter_turn)});
   for (const store::MoodRecord& mood : store_->moods())
     s.moods.push_back({mood.name, mood.title, "Your own picture", {}, true, true, {}, ""});
-  s.can_undo = !history_.empty();
+  s.can_undo = !history_.empty() || (running() && live_);
 }
 
 }  // namespace chiaro::daemon

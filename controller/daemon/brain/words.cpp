@@ -11,7 +11,7 @@
 namespace chiaro::daemon {
 
 std::string level_in_words(double intensity) {
-  if (intensity <= 0) return "off";
+  if (intensity < kOff) return "off";
   if (intensity >= 0.995) return "full";
   const double stops = -core::to_stops(intensity);
   const std::string percent = intensity < 0.095 ? fmt::format("{:.1f} %", 100 * intensity)
@@ -53,16 +53,11 @@ std::string gel_in_words(double from_k, double to_k) {
     const char* name;
   };
   // Shifts in mired as Lee Filters print them.
-  static constexpr Gel kGels[] = {{159, "full CTO (Lee 204)"},
-                                  {124, "¾ CTO (Lee 285)"},
-                                  {109, "½ CTO (Lee 205)"},
-                                  {64, "¼ CTO (Lee 206)"},
-                                  {26, "⅛ CTO (Lee 223)"},
-                                  {0, ""},
-                                  {-18, "⅛ CTB (Lee 218)"},
-                                  {-35, "¼ CTB (Lee 203)"},
-                                  {-78, "½ CTB (Lee 202)"},
-                                  {-137, "full CTB (Lee 201)"}};
+  static constexpr Gel kGels[] = {{159, "full CTO (Lee 204)"}, {124, "¾ CTO (Lee 285)"},
+                                  {109, "½ CTO (Lee 205)"},    {64, "¼ CTO (Lee 206)"},
+                                  {26, "⅛ CTO (Lee 223)"},     {0, ""},
+                                  {-18, "⅛ CTB (Lee 218)"},    {-35, "¼ CTB (Lee 203)"},
+                                  {-78, "½ CTB (Lee 202)"},    {-137, "full CTB (Lee 201)"}};
   const double wanted = 1e6 / to_k - 1e6 / from_k;
   return std::min_element(std::begin(kGels), std::end(kGels),
                           [&](const Gel& a, const Gel& b) {

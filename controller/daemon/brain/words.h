@@ -12,6 +12,8 @@ namespace chiaro::daemon {
 
 /// "62 %, 0.7 stops below full", "full", "off".
 std::string level_in_words(double intensity);
+/// Below this nobody sees light: "off".
+inline constexpr double kOff = 0.0005;
 /// "4300 K", "4300 K, 8 towards green", "red 80 %, blue 20 %"; "" for a lamp of one colour.
 std::string colour_in_words(const studio::Fixture& fixture, const core::FixtureState& state);
 /// "4:1", "2.8:1".

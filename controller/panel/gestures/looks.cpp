@@ -113,7 +113,8 @@ Made add_mood(const Request& request, const Words&, const State& state) {
   if (!any)
     return Refusal{400, "the form has no 'picture'", "picture",
                    "send the photograph as the form's field 'picture'"};
-  if (mood.name.empty()) mood.name = not_taken(name_from(mood.title), state);
+  mood.replace = !mood.name.empty();
+  if (!mood.replace) mood.name = not_taken(name_from(mood.title), state);
   if (!usable_name(mood.name))
     return Refusal{422, "'" + mood.name + "' cannot be a mood's name", "name",
                    "use letters, digits, '-' and '_', at most 60"};

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <fmt/format.h>
 
-#include "controller/core/picture_file.h"
+#include "controller/core/picture_header.h"
 
 namespace chiaro::panel {
 
@@ -28,10 +28,9 @@ Refusal no_such(const std::string& kind, const std::string& word) {
 std::optional<Refusal> not_a_picture(const std::string& bytes, const std::string& where) {
   const std::span<const std::uint8_t> span(reinterpret_cast<const std::uint8_t*>(bytes.data()),
                                            bytes.size());
-  const auto picture = core::decode_picture(span, "the picture");
-  if (picture) return std::nullopt;
-  const core::Problem& problem = picture.problems().front();
-  return Refusal{422, problem.what, where, problem.remedy};
+  const auto problem = core::unlike_a_picture(span, "the picture");
+  if (!problem) return std::nullopt;
+  return Refusal{422, problem->what, where, problem->remedy};
 }
 
 }  // namespace chiaro::panel

@@ -36,6 +36,62 @@ TEST_F(BrainTest, ServesThePicturesOfALook) {
       std::holds_alternative<panel::Refusal>(brain_->picture({Kind::look_wanted, "", id + 1})));
 }
 
+TEST_F(BrainTest, LightsAtOnceWithTheStandsWhereTheyAreAndThenLooksForBetterPlaces) {
+  open();
+  EXPECT_EQ(perform(like_a_picture(0.0)).status, 202);
+  settle([](const panel::State& state) { return state.design->lit; });
+  EXPECT_LE(brain_->state().design->status, panel::JobStatus::running);
+  EXPECT_FALSE(brain_->state().look) << "not a look yet";
+  settle([](const panel::State& state) { return state.look.has_value(); });
+  EXPECT_EQ(brain_->state().design->status, panel::JobStatus::done);
+}
+
+TEST_F(BrainTest, UndoWhileALookIsBeingFoundStaysWithTheOneBefore) {
+  open();
+  EXPECT_FALSE(perform(panel::WorkLight{0}).refused);
+  const auto before = brain_->state().look->id;
+  EXPECT_EQ(perform(like_a_picture()).status, 202);
+  EXPECT_TRUE(brain_->state().can_undo);
+  EXPECT_FALSE(perform(panel::Undo{0}).refused);
+  EXPECT_EQ(brain_->state().look->id, before);
+  EXPECT_EQ(brain_->state().design->status, panel::JobStatus::cancelled);
+  EXPECT_FALSE(brain_->state().can_undo);
+}
+
+TEST_F(BrainTest, AMoodForLockedLampsIsRefusedWithWhatToDo) {
+  open();
+  for (const char* lamp : {"key", "back"})
+    EXPECT_FALSE(perform(panel::SetFixture{lamp, {}, {}, true}).refused);
+  const auto refused = perform(like_a_picture()).refused;
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->status, 409);
+  EXPECT_NE(refused->remedy.find("unlock"), std::string::npos);
+}
+
+TEST_F(BrainTest, TheLargePreviewShowsTheWallsLightAsThePlannerReckonedWithIt) {
+  std::string yaml = kStudio;
+  yaml.replace(yaml.find("0.3, 0.3, 0.3"), 13, "0.9, 0.9, 0.9");
+  yaml.replace(yaml.find("[64, 48]"), 8, "[64, 64]");  // the planner's own frame is square
+  std::ofstream(folder_.path() / "studio.yaml") << yaml;
+  open();
+  const auto mean = [&](std::int64_t id) {
+    const auto found = brain_->picture({panel::PictureOf::Kind::look_placed, "", id});
+    const auto& bytes = std::get<panel::PictureFile>(found).bytes;
+    const auto picture = core::decode_picture(
+        {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, "preview");
+    const core::Picture light = core::linear(*picture);
+    double sum = 0;
+    for (const float value : light.green.values) sum += value;
+    return std::pair{sum / static_cast<double>(light.green.values.size()), picture->size.width};
+  };
+  design(like_a_picture());
+  const auto id = brain_->state().look->id;
+  const auto [planned, working] = mean(id);
+  settle([&](const panel::State&) { return mean(id).second == 64; });
+  EXPECT_GT(working, 64);
+  EXPECT_NEAR(mean(id).first, planned, 0.02 * planned);
+}
+
 TEST_F(BrainTest, KeepsADesignThatWasNotToBeApplied) {
   open();
   design(like_a_picture(std::nullopt));

@@ -62,9 +62,74 @@ TEST_F(GesturesTest, WhoeverWasAnsweredFindsTheirPictureInTheState) {
   const auto look_at_once = [&](const panel::Outcome&) { known = has_it(); };
   brain_->perform(panel::AddMood{"our-window", "Our window", like_a_picture().picture},
                   look_at_once);
+  while (!known) queue_.run_one();
   EXPECT_EQ(known, true) << "the next question may come before the loop's next turn";
   brain_->perform(panel::RemoveMood{"our-window"}, look_at_once);
   EXPECT_EQ(known, false);
+}
+
+TEST_F(GesturesTest, ALargePhotographIsReadOffTheLoopAndKeptSmall) {
+  open();
+  core::EncodedPicture large({2400, 1800});
+  for (std::size_t i = 0; i < large.values.size(); ++i)
+    large.values[i].fill(static_cast<std::uint8_t>(i / 24000));
+  const auto bytes = core::encode_jpeg(large, 95);
+  std::optional<panel::Outcome> outcome;
+  const panel::AddMood mood{"large", "Large", std::string(bytes.begin(), bytes.end()), false};
+  brain_->perform(mood, [&](const panel::Outcome& given) { outcome = given; });
+  EXPECT_FALSE(outcome) << "nothing was read on the loop";
+  while (!outcome) queue_.run_one();
+  EXPECT_EQ(outcome->status, 201);
+  const auto kept = brain_->picture({panel::PictureOf::Kind::mood, "large", 0});
+  const auto& file = std::get<panel::PictureFile>(kept);
+  const auto picture = core::decode_picture(
+      {reinterpret_cast<const std::uint8_t*>(file.bytes.data()), file.bytes.size()}, "kept");
+  ASSERT_TRUE(picture);
+  EXPECT_LE(picture->size.pixels(), core::kPixelsOfExemplar);
+  EXPECT_NEAR(picture->size.width * 3.0 / picture->size.height, 4, 0.02);
+  outcome.reset();
+  brain_->perform(mood, [&](const panel::Outcome& given) { outcome = given; });
+  while (!outcome) queue_.run_one();
+  EXPECT_EQ(outcome->json, R"({"name":"large-2"})") << "nobody's picture is lost";
+}
+
+TEST_F(GesturesTest, ADamagedPhotographIsRefusedWithWordsOnceItIsRead) {
+  open();
+  const std::string cut = like_a_picture().picture.substr(0, 40);
+  std::optional<panel::Outcome> outcome;
+  brain_->perform(panel::AddMood{"cut", "Cut", cut},
+                  [&](const panel::Outcome& given) { outcome = given; });
+  while (!outcome) queue_.run_one();
+  ASSERT_TRUE(outcome->refused);
+  EXPECT_EQ(outcome->refused->status, 422);
+  EXPECT_FALSE(outcome->refused->remedy.empty());
+  panel::StartDesign ask = like_a_picture();
+  ask.picture = cut;
+  EXPECT_EQ(perform(ask).status, 202);
+  settle(
+      [](const panel::State& state) { return state.design->status > panel::JobStatus::running; });
+  EXPECT_EQ(brain_->state().design->status, panel::JobStatus::failed);
+  EXPECT_EQ(brain_->state().design->error->what, outcome->refused->what);
+}
+
+TEST_F(GesturesTest, ABentWorkLightIsBentAgainWhenAStandIsMoved) {
+  open();
+  EXPECT_FALSE(perform(panel::WorkLight{0}).refused);
+  const auto flat = look();
+  panel::Nudge nudge;
+  nudge.by.brighter = 0.5;
+  EXPECT_EQ(perform(nudge).status, 202);
+  settle([&](const panel::State& state) { return state.look->id != flat; });
+  const auto lux = [&](double distance) { return 12000 * light() / (distance * distance); };
+  const double bent = lux(1.8), before = light();
+  EXPECT_GT(bent, 1.2 * 800);
+  core::FixtureState near;
+  near.set(core::Dof::distance, 1.3);
+  EXPECT_FALSE(perform(panel::Placed{"key", near}).refused);
+  settle([&](const panel::State&) { return light() != before; });
+  EXPECT_NEAR(lux(1.3), bent, 0.05 * bent);
+  EXPECT_EQ(brain_->state().look->nudges.size(), 1u);
+  EXPECT_FALSE(key().instruction) << "it stands where it was put";
 }
 
 TEST_F(GesturesTest, ThereIsNothingToNudgeBeforeALook) {

@@ -77,7 +77,7 @@ TEST(StateJson, IsAsDocumented) {
              "reference": "/api/v1/moods/rembrandt/picture", "trials": 4000, "seconds": 0.8},
     "design": {"job": 5, "mood": "rembrandt", "title": "Rembrandt", "status": "failed",
                "stage": "", "trial": 10, "trials": 20, "best": 0.25, "seconds": 1.5,
-               "look": null, "error": {"what": "what", "where": "where", "remedy": "remedy"}},
+               "lit": false, "look": null, "error": {"what": "what", "where": "where", "remedy": "remedy"}},
     "fixtures": [{"name": "key", "role": "key", "mount": "stand",
       "words": "45° camera left, 35° up, 1.8 m", "level": "50 %, 1.0 stop below full",
       "colour": "4300 K", "light": "640 lx (59 fc)", "lux": 640.0, "output_cd": 12000.0,

@@ -2,7 +2,7 @@
 // The live look beside its pictures: what came out, a little more of this or that, undo and save.
 import type { Actions, Nudge } from './actions';
 import { byId, el, setAttribute, setText, show } from './dom';
-import type { Look, Scene, State } from './state';
+import type { Look, Scene } from './state';
 import { makeViewer } from './viewer';
 import { sentence, stops, verdict } from './words';
 
@@ -79,16 +79,21 @@ function makeSave(actions: Actions) {
     update(look: Look | null) {
       suggestion = look?.name ?? '';
       setAttribute(open, 'disabled', look === null);
-      setText(open, look?.kept ? 'Save under a name' : 'Save look');
+      setText(open, look?.kept ? 'Save as' : 'Save look');
     },
   };
 }
 
-function headline(state: State | null): [title: string, words: string, kind: string] {
+function headline({ state, sending }: Scene): [title: string, words: string, kind: string] {
+  if (sending) return [sending, 'Reading the photograph …', 'working'];
   if (!state) return ['One moment', 'Looking for the daemon …', ''];
   const { design, look } = state;
   if (design?.status === 'queued' || design?.status === 'running')
-    return [design.title, 'Finding the lights for it …', 'working'];
+    return [
+      design.title,
+      design.lit ? 'Lit with the stands where they are. Looking for better places …' : 'Finding the lights for it …',
+      'working',
+    ];
   if (design?.status === 'failed')
     return [
       design.title,
@@ -144,7 +149,7 @@ export function makeStage(actions: Actions, changed: () => void) {
     update(scene: Scene) {
       const { state } = scene;
       viewer.update(scene);
-      const [name, text, kind] = headline(state);
+      const [name, text, kind] = headline(scene);
       setText(title, name);
       setText(words, text);
       setAttribute(byId('stage'), 'data-kind', kind);

@@ -11,11 +11,11 @@ import { makeInstructions, makeLights, makeProblems } from './lights';
 import { makeStage } from './look';
 import { makeNotices } from './notices';
 import { snapshot, titleOf, uploadOf } from './picture';
-import type { Scene } from './state';
+import type { Scene, State } from './state';
 import { makeMonitor, makePorts } from './technician';
 
 const scene: Scene = {
-  state: null, moods: [], looks: [], tab: 'studio', before: '', connected: false, lostSince: null, refusal: null,
+  state: null, moods: [], looks: [], tab: 'studio', before: '', sending: '', connected: false, lostSince: null, refusal: null,
 };
 let wantsToken = false;
 
@@ -50,9 +50,15 @@ const actions: Actions = {
   light: (mood) => changing(() => api.light(mood)),
   lightLike: (file) =>
     changing(async () => {
-      const name = await api.addMood(await uploadOf(file), titleOf(file));
-      void loadMoods();
-      await api.light(name);
+      scene.sending = titleOf(file);
+      render();
+      try {
+        const name = await api.addMood(await uploadOf(file), titleOf(file));
+        void loadMoods();
+        await api.light(name);
+      } finally {
+        scene.sending = '';
+      }
     }),
   forget: (mood) => void attempt(() => api.removeMood(mood)).then(loadMoods),
   cancel: (job) => void attempt(() => api.cancel(job)),
@@ -115,9 +121,18 @@ function render(): void {
 }
 
 let live = '';
+let missed = '';
+/** A mood that this page has not heard of was added elsewhere, on another tablet. */
+function missing(state: State): string {
+  const named = [state.look?.mood, state.design?.mood];
+  return named.find((name) => name && !scene.moods.some((mood) => mood.name === name)) ?? '';
+}
 listen({
   state(state) {
     scene.state = state;
+    const unknown = missing(state);
+    if (unknown && unknown !== missed) void loadMoods();
+    missed = unknown;
     // The list of looks changes with the live one.
     const now = `${state.look?.id} ${state.look?.kept} ${state.look?.name}`;
     if (now !== live) void loadLooks();

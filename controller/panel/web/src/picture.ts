@@ -12,9 +12,14 @@ export async function uploadOf(file: File): Promise<Blob> {
   const canvas = document.createElement('canvas');
   canvas.width = Math.max(1, Math.round(bitmap.width * scale));
   canvas.height = Math.max(1, Math.round(bitmap.height * scale));
-  canvas.getContext('2d')?.drawImage(bitmap, 0, 0, canvas.width, canvas.height);
-  const png = await new Promise<Blob | null>((made) => canvas.toBlob(made, 'image/png'));
-  return png ?? file;
+  const context = canvas.getContext('2d');
+  if (!context) return file;
+  context.fillStyle = '#777'; // behind what is transparent, as the daemon does it
+  context.fillRect(0, 0, canvas.width, canvas.height);
+  context.drawImage(bitmap, 0, 0, canvas.width, canvas.height);
+  bitmap.close();
+  const smaller = await new Promise<Blob | null>((made) => canvas.toBlob(made, 'image/jpeg', 0.92));
+  return smaller ?? file;
 }
 
 /** "IMG_2041.jpeg" to "IMG 2041". */

@@ -70,6 +70,8 @@ export interface Design {
   trials: number;
   best: number;
   seconds: number;
+  /** The lamps show a first answer already; places are still being looked for. */
+  lit: boolean;
   look: number | null;
   error: Refusal | null;
 }
@@ -158,6 +160,8 @@ export interface Scene {
   tab: 'studio' | 'technician';
   /** What the camera saw when the last mood was clicked. */
   before: string;
+  /** The photograph that is on its way to the daemon; '' when none is. */
+  sending: string;
   connected: boolean;
   /** When the connection was lost, else null. */
   lostSince: number | null;

@@ -143,6 +143,7 @@ function makeGrid() {
         const level = levels[i] ?? 0;
         setText(cell, level ? String(level) : '·');
         cell.style.setProperty('--level', String(level / 255));
+        setAttribute(cell, 'data-on', level > 0);
         setAttribute(cell, 'data-owned', owner[i] !== undefined);
         setAttribute(cell, 'data-first', owner[i] !== undefined && owner[i] !== owner[i - 1]);
       });
