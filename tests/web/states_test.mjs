@@ -168,10 +168,10 @@ test('a meter reading is typed in as the meter shows it', async () => {
 test('the technician sees how ports keep time and what is in every slot', async () => {
   await open(done());
   await page.getByRole('button', { name: 'Technician' }).click();
-  assert.match(await text('#ports'), /41 µs · 310 µs · 1\.2 ms/);
+  await page.locator('#ports', { hasText: /41 µs · 310 µs · 1\.2 ms/ }).waitFor();
   await page.locator('.slots li[data-slot="2"]', { hasText: '20' }).waitFor();
   await page.locator('.slots li[data-slot="5"]').hover();
-  assert.match(await text('#monitor'), /Slot 5: fill, 80 of 255 \(31 %\)/);
+  await page.locator('#monitor', { hasText: /Slot 5: fill, 80 of 255 \(31 %\)/ }).waitFor();
 });
 
 test('an unknown lamp is learned slot by slot, and its slots fall when one looks away', async () => {

@@ -217,7 +217,7 @@ TEST_F(BrainTest, LetsOnlyOneBrainIn) {
 TEST_F(BrainTest, LightsLikeAMoodOfOnesOwn) {
   open();
   panel::AddMood mood{"my-window", "By the window", like_a_picture().picture};
-  EXPECT_EQ(perform(mood).status, 201);
+  ASSERT_EQ(perform_and_wait(mood).status, 201);
   panel::StartDesign ask;
   ask.mood = "my-window";
   ask.title = "By the window";

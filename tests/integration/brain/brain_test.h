@@ -111,6 +111,14 @@ class BrainTest : public testing::Test {
     brain_->tick(clock_.now());
     return outcome.value_or(panel::Outcome{});
   }
+  /// The same for a gesture that is answered once a worker has done its part.
+  panel::Outcome perform_and_wait(const panel::Gesture& gesture) {
+    std::optional<panel::Outcome> outcome;
+    brain_->perform(gesture, [&](panel::Outcome given) { outcome = std::move(given); });
+    while (!outcome) queue_.run_one();
+    brain_->tick(clock_.now());
+    return *outcome;
+  }
   /// A small design like a picture that is bright on the left.
   panel::StartDesign like_a_picture(std::optional<double> apply = 0.0) {
     panel::StartDesign ask;
