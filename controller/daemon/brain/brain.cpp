@@ -200,6 +200,7 @@ void Brain::answer_waiting(ports::TimePoint now) {
                                 : waiting.motion       ? sent_->motion_stop.id
                                                        : sent_->blackout_id;
     if (heard >= waiting.id) {
+      changed();
       waiting.answer({{},
                       200,
                       waiting.motion ? fmt::format(R"({{"motion_stop":{}}})", sent_->motion_stop.on)

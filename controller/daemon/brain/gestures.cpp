@@ -18,7 +18,7 @@ constexpr ports::Duration kDarkPatience = std::chrono::seconds(2);
 void Brain::perform(const panel::Gesture& gesture, panel::Answer answer) {
   // Whoever was answered may ask at once: what the state then says must know of this gesture.
   const panel::Answer told = [this, answer = std::move(answer)](const panel::Outcome& outcome) {
-    renew_state();
+    if (dirty_) renew_state();  // it stays so: others are told on the loop's next turn
     answer(outcome);
   };
   std::visit([&](const auto& wish) { carry_out(wish, told); }, gesture);
