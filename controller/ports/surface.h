@@ -12,7 +12,8 @@
 
 namespace chiaro::ports {
 
-/// Something moved. Buttons: 1 pressed, 0 released. Faders: 0..1. Encoders: detents, + clockwise.
+/// Something moved. Buttons: 1 pressed, 0 released. Faders: 0..1. Encoders: detents, + clockwise,
+/// at most 127 at once. Drivers keep to that whatever their wire says; no value is not a number.
 struct SurfaceEvent {
   std::string control;  ///< as its mapping names it
   double value = 0;

@@ -38,15 +38,19 @@ bool Controller::send(const ports::Endpoint& to, std::span<const std::uint8_t> d
 }
 
 void Controller::hear(ports::TimePoint now) {
-  if (!socket_) return;
+  if (!socket_ || now == heard_) return;  // another port of this frame has been here
+  heard_ = now;
   if (now >= next_poll_) {
     next_poll_ = now + kPollPeriod;
     socket_->send(everybody_, poll_packet());
   }
   std::array<std::uint8_t, 1024> datagram;
   ports::Endpoint from;
-  while (const auto size = socket_->receive(datagram, &from))
+  for (int i = 0; i < kMostAtOnce; ++i) {
+    const auto size = socket_->receive(datagram, &from);
+    if (!size) break;
     if (const auto reply = parse_reply(std::span(datagram).first(*size))) take(*reply, from, now);
+  }
 }
 
 void Controller::take(const HeardReply& reply, const ports::Endpoint& from, ports::TimePoint now) {

@@ -30,7 +30,11 @@ class Controller {
 
   /// Opens the socket if it is not open.
   core::Result<core::Done> open();
-  /// Polls when it is time, and takes the answers that have come.
+  /// No more datagrams are read at once: on a network full of others' levels the output loop must
+  /// go on. What is left over is read with the next frame.
+  static constexpr int kMostAtOnce = 32;
+
+  /// Polls when it is time, and takes the answers that have come; once for each `now`. Real-time.
   void hear(ports::TimePoint now);
   bool send(const ports::Endpoint& to, std::span<const std::uint8_t> datagram);
   const ports::Endpoint& everybody() const { return everybody_; }
@@ -52,7 +56,7 @@ class Controller {
   ports::Endpoint everybody_{"255.255.255.255", kPort};
   std::string own_;
   std::unique_ptr<ports::DatagramSocket> socket_;
-  ports::TimePoint next_poll_;
+  ports::TimePoint next_poll_, heard_;
   std::array<Node, 512> nodes_;
   std::size_t known_ = 0;
   std::array<ports::Endpoint, kMostUnicast + 1> found_;

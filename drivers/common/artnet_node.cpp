@@ -20,7 +20,9 @@ Node::Heard Node::hear(std::span<const std::uint8_t> datagram, const ports::Endp
                        ports::TimePoint now) {
   const auto operation = operation_of(datagram);
   if (operation == Operation::poll) {
-    if (std::find(asked_by_.begin(), asked_by_.end(), from) == asked_by_.end())
+    constexpr std::size_t kMostAskers = 32;  // more are nobody's controllers
+    if (asked_by_.size() < kMostAskers &&
+        std::find(asked_by_.begin(), asked_by_.end(), from) == asked_by_.end())
       asked_by_.push_back(from);
     dice_ = dice_ * 1664525u + 1013904223u;
     if (!answer_at_) answer_at_ = now + kReplyWithin * (dice_ >> 16u) / 65536;

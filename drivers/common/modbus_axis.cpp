@@ -92,7 +92,6 @@ TimePoint Axis::due(TimePoint) const {
 }
 
 Outcome Axis::turn(ports::ModbusLink& link, TimePoint now) {
-  not_before_ = now + settings_.least_gap;
   if (stop_now_.exchange(false, std::memory_order_acq_rel) || (stop_unheard_ && stopped()))
     return heard(say_stop(link), now);
   stop_unheard_ = false;

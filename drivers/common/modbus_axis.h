@@ -58,6 +58,7 @@ class Axis final : public Client {
   ports::TimePoint due(ports::TimePoint now) const override;
   bool urgent() const override { return stop_now_.load(std::memory_order_acquire); }
   ports::ModbusLink::Outcome turn(ports::ModbusLink& link, ports::TimePoint now) override;
+  void spoken(ports::TimePoint now) override { not_before_ = now + settings_.least_gap; }
   void line_opened() override;
 
  private:

@@ -74,7 +74,9 @@ bool Bus::step(ports::TimePoint now) {
   if (client == nullptr) return false;
   last_ = static_cast<std::size_t>(std::find(clients_.begin(), clients_.end(), client) -
                                    clients_.begin());
-  if (client->turn(*link_, now) == Outcome::gone) {
+  const Outcome outcome = client->turn(*link_, now);
+  client->spoken(clock_.now());
+  if (outcome == Outcome::gone) {
     link_.reset();
     open_.store(false, std::memory_order_release);
     reopening_.failed(now);
@@ -96,8 +98,8 @@ void Bus::run() {
     const ports::TimePoint now = clock_.now();
     if (step(now)) continue;
     const ports::Duration wait = std::clamp(next(now) - now, ports::Duration(1000000), kLongest);
-    (void)work_.try_acquire_for(wait);
-    awake_.store(false, std::memory_order_release);
+    // Cleared only with the semaphore down: else a second wake would raise it twice.
+    if (work_.try_acquire_for(wait)) awake_.store(false, std::memory_order_release);
   }
 }
 

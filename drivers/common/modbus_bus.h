@@ -30,6 +30,8 @@ class Client {
   virtual bool urgent() const { return false; }
   /// One transaction.
   virtual ports::ModbusLink::Outcome turn(ports::ModbusLink& link, ports::TimePoint now) = 0;
+  /// Its turn has ended, with the device's answer or without.
+  virtual void spoken(ports::TimePoint) {}
   /// The line was lost and is back: nobody need be waited for, nothing is known any more.
   virtual void line_opened() {}
 };

@@ -102,7 +102,6 @@ void Module::line_opened() {
 Outcome Module::turn(ports::ModbusLink& link, ports::TimePoint now) {
   const Span span = next_span(now);
   const Outcome outcome = write(link, span);
-  not_before_ = now + settings_.least_gap;
   const bool done = outcome == Outcome::done;
   for (std::size_t i = span.first; i < span.end; ++i) known_[i] = done;
   answers_.store(done, std::memory_order_release);

@@ -34,7 +34,7 @@ std::uint32_t register_value(const Channel& channel, double level);
 struct ModuleSettings {
   std::uint8_t unit = 1;
   ports::Duration timeout = std::chrono::milliseconds(500);
-  /// The device's own pace: so long between two messages to it.
+  /// The device's own pace: so long between the end of a message to it and the next.
   ports::Duration least_gap{};
   /// Everything again so often: a module that lost its power has forgotten its levels.
   ports::Duration refresh = std::chrono::seconds(2);
@@ -54,6 +54,7 @@ class Module final : public Client {
 
   ports::TimePoint due(ports::TimePoint now) const override;
   ports::ModbusLink::Outcome turn(ports::ModbusLink& link, ports::TimePoint now) override;
+  void spoken(ports::TimePoint now) override { not_before_ = now + settings_.least_gap; }
   void line_opened() override;
 
   /// Thread-safe counts of messages and of those that failed.

@@ -39,12 +39,14 @@ Receiver::Heard Receiver::hear(Universe& universe, const DataPacket& packet, por
   }
   if (packet.terminated) {
     if (known) sources.erase(source);
+    forget_syncs();
     merge(universe);
     return Heard::terminated;
   }
   const bool priorities = options_.per_address_priority && packet.start_code == kAddressPriorities;
   if (packet.preview || (packet.start_code != kLevels && !priorities)) return Heard::not_for_lamps;
   if (!known) {
+    if (sources.size() >= kMostSources) return Heard::refused;
     if (priorities) return Heard::priorities;  // levels make a source; the next 0xDD is soon here
     sources.emplace_back();
     source = std::prev(sources.end());
@@ -85,7 +87,8 @@ bool Receiver::must_wait(const DataPacket& packet, ports::TimePoint now) {
     return s.universe == packet.sync_universe && s.cid == packet.cid;
   });
   if (sync == syncs_.end()) {
-    syncs_.push_back({packet.sync_universe, packet.cid, 0, std::nullopt, false});
+    if (syncs_.size() < kMostSyncs)
+      syncs_.push_back({packet.sync_universe, packet.cid, 0, std::nullopt});
     return false;
   }
   if (!sync->heard) return false;
@@ -116,12 +119,21 @@ Receiver::Heard Receiver::hear_sync(const HeardSync& packet, ports::TimePoint no
 }
 
 std::uint16_t Receiver::sync_to_join() {
-  for (Sync& sync : syncs_)
-    if (!sync.joined) {
-      sync.joined = true;
-      return sync.universe;
-    }
+  if (joined_.size() >= kMostJoined) return 0;  // the system allows about twenty groups a socket
+  for (const Sync& sync : syncs_)
+    if (std::find(joined_.begin(), joined_.end(), sync.universe) == joined_.end())
+      return joined_.emplace_back(sync.universe);
   return 0;
+}
+
+/// Those that no source names any more.
+void Receiver::forget_syncs() {
+  std::erase_if(syncs_, [&](const Sync& sync) {
+    for (const Universe& universe : universes_)
+      for (const Source& source : universe.sources)
+        if (source.cid == sync.cid && source.sync_universe == sync.universe) return false;
+    return true;
+  });
 }
 
 std::optional<int> Receiver::priority_at(const Source& source, std::size_t i) const {
@@ -162,7 +174,10 @@ const ports::DmxFrame& Receiver::frame(std::size_t i, ports::TimePoint now) {
       changed = true;
     }
   }
-  if (changed) merge(universe);
+  if (changed) {
+    forget_syncs();
+    merge(universe);
+  }
   return universe.frame;
 }
 

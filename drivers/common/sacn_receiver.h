@@ -25,8 +25,11 @@ inline constexpr ports::Duration kSourceLoss = std::chrono::milliseconds(2500);
 /// So long a new source's levels wait for its priorities, lest lamps jump when they arrive.
 inline constexpr ports::Duration kPriorityWait = std::chrono::milliseconds(1500);
 
+/// Bounded in memory, whatever others send: so many sources a universe are heard (later ones are
+/// refused), so many of their synchronisations kept, so many of those universes joined.
 class Receiver {
  public:
+  static constexpr std::size_t kMostSources = 16, kMostSyncs = 32, kMostJoined = 12;
   struct Options {
     /// Heeds start code 0xDD. Then a new source counts from its first 0xDD packet, or 1.5 s after
     /// its first levels.
@@ -89,19 +92,20 @@ class Receiver {
     Cid cid{};
     std::uint8_t sequence = 0;
     std::optional<ports::TimePoint> heard;
-    bool joined = false;
   };
   Heard hear(Universe& universe, const DataPacket& packet, ports::TimePoint now);
   Heard hear_sync(const HeardSync& packet, ports::TimePoint now);
   void take_levels(Source& source, const DataPacket& packet, ports::TimePoint now);
   bool must_wait(const DataPacket& packet, ports::TimePoint now);
   void merge(Universe& universe) const;
+  void forget_syncs();
   /// Priority of the source at slot i; nothing when it does not drive that slot.
   std::optional<int> priority_at(const Source& source, std::size_t i) const;
 
   const Options options_;
   std::vector<Universe> universes_;
-  std::vector<Sync> syncs_;
+  std::vector<Sync> syncs_;            ///< each with a source that names it
+  std::vector<std::uint16_t> joined_;  ///< synchronisation universes, told by `sync_to_join`
 };
 
 }  // namespace chiaro::drivers::sacn

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // OSC surfaces over UDP: tablets, media servers. Feedback goes to whoever spoke last. Messages are
 // read and built by liblo; the socket is ours, so that tests need no network.
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "drivers/common/system_devices.h"
 #include "drivers/registry.h"
@@ -71,9 +73,17 @@ class OscSurface final : public ports::Surface {
     const Message message(lo_message_deserialise(datagram.data(), datagram.size(), &result));
     if (!message) return false;
     const std::string path(reinterpret_cast<const char*>(datagram.data()));
+    const double value = value_of(message.get());
+    if (!std::isfinite(value)) return true;
     for (const SurfaceControl& control : settings_.controls)
-      if (control.osc == path) events.push_back({control.name, value_of(message.get())});
+      if (control.osc == path) events.push_back({control.name, within_range(control, value)});
     return true;
+  }
+  static double within_range(const SurfaceControl& control, double value) {
+    using Kind = SurfaceControl::Kind;
+    if (control.kind == Kind::button) return value >= 0.5 ? 1 : 0;
+    const double least = control.kind == Kind::fader ? 0 : -127;
+    return std::clamp(value, least, control.kind == Kind::fader ? 1.0 : 127.0);
   }
   /// The first argument as a number; a message without any is a button pressed.
   static double value_of(lo_message message) {

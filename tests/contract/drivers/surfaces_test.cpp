@@ -185,6 +185,25 @@ TEST(GpioSurface, IgnoresWhatIsShorterThanItsDebounceTime) {
   EXPECT_EQ(after(5ms), (std::vector<ports::SurfaceEvent>{{"stop", 1}}));
 }
 
+TEST(OscSurface, KeepsWhatComesWithinItsRangeAndDropsWhatIsNoNumber) {
+  support::StageForOutputs stage("mock");
+  SurfaceSettings settings;
+  settings.interface = "lo";
+  SurfaceControl fader{.name = "fader", .kind = SurfaceControl::Kind::fader};
+  fader.osc = "/f";
+  settings.controls = {fader};
+  auto pad = std::move(*stage.network().open_datagram({"lo", 9001, false, false}));
+  auto surface = std::move(*make_surface("osc", settings, stage.around()));
+  ASSERT_TRUE(surface->open());
+  for (const std::uint32_t bits : {0x7fc00000u, 0x7f800000u, 0x60000000u, 0xe0000000u}) {
+    Bytes message{'/', 'f', 0, 0, ',', 'f', 0, 0};  // NaN, infinity, 3.7e19, -3.7e19
+    for (int shift = 24; shift >= 0; shift -= 8)
+      message.push_back(static_cast<std::uint8_t>(bits >> shift));
+    pad->send({"127.0.0.1", settings.port}, message);
+  }
+  EXPECT_EQ(surface->listen({}), (std::vector<ports::SurfaceEvent>{{"fader", 1}, {"fader", 0}}));
+}
+
 TEST(MidiSurface, ReadsFadersEncodersAndPitchBend) {
   support::StageForOutputs stage("mock");
   const auto far = stage.devices().plug_midi("Desk");

@@ -197,6 +197,43 @@ TEST_F(ASender, SendsLevelsOnlyToWhoAskedAndStopsWhenItIsGone) {
   EXPECT_EQ(heard()[Operation::dmx], 0);
 }
 
+/// A socket at which datagrams come faster than anybody reads them.
+class EndlessSocket final : public ports::DatagramSocket {
+ public:
+  explicit EndlessSocket(int& read) : read_(read) {}
+  bool send(const ports::Endpoint&, std::span<const std::uint8_t>) override { return true; }
+  std::optional<std::size_t> receive(std::span<std::uint8_t> into, ports::Endpoint*) override {
+    ++read_;
+    const auto packet = dmx_packet(1);
+    std::copy(packet.begin(), packet.end(), into.begin());
+    return packet.size();
+  }
+  core::Result<core::Done> join(const std::string&) override { return core::Done{}; }
+
+ private:
+  int& read_;
+};
+class EndlessNetwork final : public ports::Network {
+ public:
+  core::Result<std::unique_ptr<ports::DatagramSocket>> open_datagram(const Options&) override {
+    return std::unique_ptr<ports::DatagramSocket>(std::make_unique<EndlessSocket>(read));
+  }
+  std::optional<Address> address_of(const std::string&) override {
+    return Address{"127.0.0.1", "127.255.255.255", {}};
+  }
+  int read = 0;
+};
+
+TEST(ArtNetController, GoesOnWhenOthersFloodItsSocketAndReadsOnceAFrame) {
+  EndlessNetwork network;
+  Controller controller(network, "lo");
+  ASSERT_TRUE(controller.open());
+  for (int port = 0; port < 100; ++port) controller.hear(ports::TimePoint(1s));
+  EXPECT_EQ(network.read, Controller::kMostAtOnce);
+  controller.hear(ports::TimePoint(2s));
+  EXPECT_EQ(network.read, 2 * Controller::kMostAtOnce);
+}
+
 TEST_F(ASender, KeepsWithinTheFourSecondsThatNodesAllowWhenItIsQuiet) {
   settings_.quiet = true;
   settings_.unicast = "127.0.0.1";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
+#include <set>
 
 #include "drivers/common/sacn_packet.h"
 #include "drivers/common/sacn_receiver.h"
@@ -190,6 +191,29 @@ TEST_F(APriorityReceiver, FallsBackToThePacketsPriorityWhenTheyCease) {
     }
   }
   EXPECT_EQ(level(3900ms), 10);
+}
+
+TEST(SacnReceiver, StaysSmallWhateverOthersSend) {
+  Receiver receiver({1}, {.per_address_priority = false, .synchronised = true});
+  const ports::TimePoint now(10s);
+  int refused = 0;
+  std::set<std::uint16_t> joined;
+  for (int i = 0; i < 1000; ++i) {
+    Stream stream;
+    stream.cid.fill(static_cast<std::uint8_t>(i & 0xff));
+    stream.cid[0] = static_cast<std::uint8_t>(i >> 8);
+    stream.universe = 1;
+    stream.sync_universe = static_cast<std::uint16_t>(100 + i);
+    refused += receiver.hear(data_packet(stream), now) == Receiver::Heard::refused;
+    while (const auto universe = receiver.sync_to_join()) joined.insert(universe);
+  }
+  EXPECT_EQ(receiver.sources(0).size(), Receiver::kMostSources);
+  EXPECT_EQ(refused, 1000 - static_cast<int>(Receiver::kMostSources));
+  EXPECT_EQ(joined.size(), Receiver::kMostJoined);
+  receiver.frame(0, now + 10s);  // all of them are gone
+  Stream stream;
+  stream.universe = 1;
+  EXPECT_EQ(receiver.hear(data_packet(stream), now + 10s), Receiver::Heard::levels);
 }
 
 TEST(SacnReceiver, TakesPriorityZeroAsAPriority) {
