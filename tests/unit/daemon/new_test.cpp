@@ -160,8 +160,9 @@ TEST_F(NewCommand, AnArcRoundTheSitterGoesThroughWhereItsLampIsNow) {
   EXPECT_NEAR(arc.centre.z, 1.3 + 2 * std::sin(core::radians(30)), 1e-3);
   EXPECT_NEAR(core::degrees(arc.at), -45, 0.1);
   EXPECT_NEAR(core::degrees(arc.angle.least), -95, 1);
-  EXPECT_EQ(arc.axis, "channel:3");
-  EXPECT_EQ(arc.axis_bytes, 2);
+  EXPECT_EQ(arc.axis.universe, 0);
+  EXPECT_EQ(arc.axis.slot, 3);
+  EXPECT_EQ(arc.axis.bytes, 2);
   EXPECT_EQ(studio.fixtures.at(0).footprint(), 4);
   EXPECT_TRUE(said("that overlaps 'key' (21 to 24)")) << "the motor's slots are taken";
 }
@@ -174,8 +175,9 @@ TEST_F(NewCommand, AnArcOverTheSitterStandsUpright) {
   EXPECT_TRUE(arc.vertical);
   EXPECT_NEAR(arc.centre.x, 1.5 * std::cos(core::radians(50)) * std::sin(core::radians(40)), 1e-3);
   EXPECT_NEAR(arc.centre.z, 1.3, 1e-3);
-  EXPECT_EQ(arc.axis, "channel:2");
-  EXPECT_EQ(arc.axis_bytes, 1);
+  EXPECT_EQ(arc.axis.universe, 0);
+  EXPECT_EQ(arc.axis.slot, 2);
+  EXPECT_EQ(arc.axis.bytes, 1);
 }
 
 TEST_F(NewCommand, ATrackRunsFromOneEndToTheOther) {
@@ -187,7 +189,8 @@ TEST_F(NewCommand, ATrackRunsFromOneEndToTheOther) {
   EXPECT_NEAR(track.from.x, -track.to.x, 1e-3);
   EXPECT_NEAR(track.from.y, track.to.y, 1e-3);
   EXPECT_NEAR(track.at, 0.25, 1e-9);
-  EXPECT_EQ(track.axis, "channel:2");
+  EXPECT_EQ(track.axis.universe, 0);
+  EXPECT_EQ(track.axis.slot, 2);
   EXPECT_TRUE(said("both ends are in the same place"));
 }
 
