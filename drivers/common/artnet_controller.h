@@ -32,7 +32,7 @@ class Controller {
   core::Result<core::Done> open();
   /// No more datagrams are read at once: on a network full of others' levels the output loop must
   /// go on. What is left over is read with the next frame.
-  static constexpr int kMostAtOnce = 32;
+  static constexpr int kMostAtOnce = 64;
 
   /// Polls when it is time, and takes the answers that have come; once for each `now`. Real-time.
   void hear(ports::TimePoint now);
