@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "controller/daemon/hand_link.h"
+#include "controller/daemon/json_text.h"
 
 namespace chiaro::daemon {
 
@@ -23,10 +24,10 @@ ports::Exit ask_hand(ports::World& world, bool json, const std::string& line,
   world.err << core::to_string(answer.problems());
   const auto& problem = answer.problems().front();
   if (json)
-    world.out << Json{{"error",
-                       {{"what", problem.what},
-                        {"where", core::to_string(problem.where)},
-                        {"remedy", problem.remedy}}}}
+    world.out << json_text(Json{{"error",
+                                 {{"what", problem.what},
+                                  {"where", core::to_string(problem.where)},
+                                  {"remedy", problem.remedy}}}})
               << "\n";
   // Who could not be reached is named by its socket; a refusal names no file, or one of its own.
   const bool reached = problem.where.file.find("output.sock") == std::string::npos;

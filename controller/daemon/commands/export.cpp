@@ -7,6 +7,7 @@
 #include <ostream>
 
 #include "controller/daemon/command.h"
+#include "controller/daemon/json_text.h"
 #include "controller/daemon/problems.h"
 #include "controller/importers/show.h"
 #include "controller/studio/load.h"
@@ -35,7 +36,7 @@ ports::Exit give_out(const std::string& file, const std::string& target, ports::
                   world, json);
   for (const std::string& each : left_out) world.err << "not in it: " << each << "\n";
   if (json)
-    world.out << nlohmann::json{{"ok", true}, {"file", target}, {"left_out", left_out}}.dump(2)
+    world.out << json_text(nlohmann::json{{"ok", true}, {"file", target}, {"left_out", left_out}})
               << "\n";
   else
     world.out << "Wrote " << target << "\n";

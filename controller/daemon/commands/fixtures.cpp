@@ -13,6 +13,7 @@
 #include <ostream>
 
 #include "controller/daemon/command.h"
+#include "controller/daemon/json_text.h"
 #include "controller/daemon/problems.h"
 #include "controller/importers/import_fixture.h"
 #include "controller/importers/xml.h"
@@ -87,7 +88,7 @@ ports::Exit search(const Options& options, ports::World& world, bool json) {
   if (text.empty())
     text = "No lamp here is called \"" + options.word +
            "\". Import its .gdtf, .qxf or .json file, or start from a profile in generic/.\n";
-  world.out << (json ? found.dump(2) + "\n" : text);
+  world.out << (json ? json_text(found) + "\n" : text);
   return ports::Exit::done;
 }
 
@@ -168,7 +169,7 @@ Json to_json(const Profile& profile) {
 ports::Exit show(const Options& options, ports::World& world, bool json) {
   const auto profile = studio::load_profile(options.name, folders_of(options, world));
   if (!profile) return refuse(profile.problems(), world, json);
-  world.out << (json ? to_json(*profile).dump(2) + "\n" : to_text(*profile));
+  world.out << (json ? json_text(to_json(*profile)) + "\n" : to_text(*profile));
   return ports::Exit::done;
 }
 
@@ -209,7 +210,7 @@ ports::Exit take_in(const Options& options, ports::World& world, bool json) {
     Json result = to_json(profile);
     result["file"] = file.string();
     result["left_out"] = imported->left_out;
-    world.out << result.dump(2) << "\n";
+    world.out << json_text(result) << "\n";
     return ports::Exit::done;
   }
   for (const std::string& each : imported->left_out) world.err << "left out: " << each << "\n";

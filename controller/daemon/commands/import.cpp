@@ -10,6 +10,7 @@
 #include <ostream>
 
 #include "controller/daemon/command.h"
+#include "controller/daemon/json_text.h"
 #include "controller/daemon/problems.h"
 #include "controller/design/design.h"
 #include "controller/importers/import_fixture.h"
@@ -127,13 +128,12 @@ ports::Exit take_in(const Options& options, ports::World& world, bool json) {
       return refuse(written.problems(), world, json);
   }
   if (json)
-    world.out << nlohmann::json{{"ok", true},
-                                {"studio", options.out},
-                                {"fixtures", show->lamps.size()},
-                                {"profiles", show->profiles.size()},
-                                {"looks", show->scenes.size()},
-                                {"left_out", show->left_out}}
-                     .dump(2)
+    world.out << json_text(nlohmann::json{{"ok", true},
+                                          {"studio", options.out},
+                                          {"fixtures", show->lamps.size()},
+                                          {"profiles", show->profiles.size()},
+                                          {"looks", show->scenes.size()},
+                                          {"left_out", show->left_out}})
               << "\n";
   else
     world.out << "Wrote " << options.out << ": " << show->lamps.size() << " lamps, "

@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "controller/daemon/command.h"
+#include "controller/daemon/json_text.h"
 #include "controller/daemon/problems.h"
 #include "controller/design/vocabulary.h"
 #include "controller/design/words.h"
@@ -59,7 +60,7 @@ void print_json(const Found& found, std::ostream& out) {
   Json moods = Json::array();
   for (const design::MoodMatch& match : found.search.matches)
     moods.push_back(json_of(found.moods[match.mood], found.qualities[match.mood], match));
-  out << Json{{"moods", moods}, {"unknown", found.search.unknown}}.dump(2) << "\n";
+  out << json_text(Json{{"moods", moods}, {"unknown", found.search.unknown}}) << "\n";
 }
 
 void print_text(const Found& found, std::ostream& out) {

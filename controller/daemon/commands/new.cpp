@@ -12,6 +12,7 @@
 #include "controller/daemon/interview/answers.h"
 #include "controller/daemon/interview/dialogue.h"
 #include "controller/daemon/interview/learning.h"
+#include "controller/daemon/json_text.h"
 #include "controller/daemon/problems.h"
 #include "controller/studio/load.h"
 #include "drivers/registry.h"
@@ -103,7 +104,8 @@ core::Result<core::Done> write_profiles(const interview::Answers& answers,
 
 std::string summary(const interview::Answers& answers, const std::string& file, bool json) {
   if (json)
-    return nlohmann::json{{"ok", true}, {"file", file}, {"fixtures", answers.lamps.size()}}.dump(2);
+    return json_text(
+        nlohmann::json{{"ok", true}, {"file", file}, {"fixtures", answers.lamps.size()}});
   return "Wrote " + file + ". `chiaro check " + file + "` prints its patch sheet.";
 }
 

@@ -11,6 +11,7 @@
 
 #include "controller/core/picture_file.h"
 #include "controller/daemon/command.h"
+#include "controller/daemon/json_text.h"
 #include "controller/daemon/problems.h"
 #include "controller/design/words.h"
 #include "controller/studio/load.h"
@@ -93,12 +94,12 @@ ports::Exit run(const Wish& wish, ports::World& world, bool json) {
   if (const auto written = write_results(wish, studio, after->look); !written)
     return refuse(written.problems(), world, json);
   if (json)
-    world.out << nlohmann::ordered_json{{"asked", json_of(*nudge)},
-                                        {"done", json_of(after->done)},
-                                        {"by_hand", after->by_hand},
-                                        {"look", nlohmann::ordered_json::parse(
-                                                     design::look_to_json(studio, after->look))}}
-                     .dump(2)
+    world.out << json_text(nlohmann::ordered_json{
+                     {"asked", json_of(*nudge)},
+                     {"done", json_of(after->done)},
+                     {"by_hand", after->by_hand},
+                     {"look",
+                      nlohmann::ordered_json::parse(design::look_to_json(studio, after->look))}})
               << "\n";
   else
     print(studio, *look, *nudge, *after, world.out);

@@ -10,6 +10,7 @@
 
 #include "controller/core/picture_file.h"
 #include "controller/daemon/command.h"
+#include "controller/daemon/json_text.h"
 #include "controller/design/design.h"
 #include "controller/render/view.h"
 #include "controller/studio/load.h"
@@ -99,11 +100,10 @@ void say(const Asked& asked, const render::View& view, ports::World& world, bool
     objects.push_back({{"id", i + 1},
                        {"name", view.buffer.objects[i].name},
                        {"subject", view.buffer.objects[i].subject}});
-  world.out << nlohmann::json{{"picture", asked.out},
-                              {"width", view.buffer.size.width},
-                              {"height", view.buffer.size.height},
-                              {"objects", objects}}
-                   .dump(2)
+  world.out << json_text(nlohmann::json{{"picture", asked.out},
+                                        {"width", view.buffer.size.width},
+                                        {"height", view.buffer.size.height},
+                                        {"objects", objects}})
             << "\n";
 }
 

@@ -13,6 +13,7 @@
 #include <ostream>
 
 #include "controller/daemon/command.h"
+#include "controller/daemon/json_text.h"
 #include "controller/daemon/problems.h"
 #include "controller/daemon/study/write.h"
 
@@ -102,7 +103,7 @@ ports::Exit run_all(const Wish& wish, ports::World& world, bool json) {
       study::write_text(std::filesystem::path(wish.out) / "claims.csv", study::to_csv(table));
   if (!written) return refuse(written.problems(), world, json);
   if (json)
-    world.out << nlohmann::json{{"ok", true}, {"studies", everything}}.dump(2) << "\n";
+    world.out << json_text(nlohmann::json{{"ok", true}, {"studies", everything}}) << "\n";
   else
     world.out << study::to_text(table);
   return ports::Exit::done;

@@ -50,7 +50,8 @@ std::string to_json(const std::vector<Finding>& findings) {
                     {"what", finding.what},
                     {"command", finding.command}});
   }
-  return nlohmann::json{{"ok", ok}, {"findings", list}}.dump();
+  return nlohmann::json{{"ok", ok}, {"findings", list}}.dump(
+      -1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 }  // namespace chiaro::daemon::doctor

@@ -77,6 +77,13 @@ TEST_F(WordsOfLight, AWordThatNobodyKnowsIsNamed) {
   EXPECT_THAT(fake_.err.str(), HasSubstr("purpel"));
 }
 
+TEST_F(WordsOfLight, WordsThatAreNoUtf8StillGiveOneJsonObject) {
+  ASSERT_EQ(run({"moods", "warm \xff", "--json"}), ports::Exit::done) << fake_.err.str();
+  const auto json = nlohmann::json::parse(fake_.out.str());
+  ASSERT_EQ(json["unknown"].size(), 1u);
+  EXPECT_THAT(json["unknown"][0].get<std::string>(), HasSubstr("\uFFFD"));
+}
+
 TEST_F(WordsOfLight, NudgeALookAndWriteIt) {
   const std::string look = some_look();
   ASSERT_EQ(run({"nudge", portrait(), look, "a little warmer, brighter", "--lock", "back", "--out",
