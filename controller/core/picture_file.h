@@ -35,6 +35,8 @@ Result<Done> write_png(const std::filesystem::path& file, const Grid<std::uint16
 Result<Done> write_exr(const std::filesystem::path& file, const Picture& picture);
 Result<Done> write_exr(const std::filesystem::path& file, const Plane& depth);
 Result<Picture> read_exr(const std::filesystem::path& file);
+/// Linear light from OpenEXR or Radiance (.hdr), which may exceed 1; any other picture decoded.
+Result<Picture> read_linear(const std::filesystem::path& file);
 
 std::vector<std::uint8_t> encode_png(const EncodedPicture& picture);
 /// quality 1..100.

@@ -76,6 +76,10 @@ Wanted wanted_colour(const Setting& setting, const studio::Rig& rig) {
       // Errors count as they are seen: by dL*/dY, which goes as Y^(-2/3).
       wanted.weight.at(x, y) = static_cast<float>(std::pow(std::max(light, 0.01), -4.0 / 3));
     }
+  if (setting.target.emphasis.empty()) return wanted;
+  const core::Plane emphasis = core::resized(setting.target.emphasis, kPatches);
+  for (std::size_t i = 0; i < emphasis.values.size(); ++i)
+    wanted.weight.values[i] *= emphasis.values[i];
   return wanted;
 }
 

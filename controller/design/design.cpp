@@ -21,12 +21,15 @@ core::Problems every_problem(const studio::Studio& studio, const LayersSource& t
                              const Goal& goal, const Options& options) {
   core::Problems problems = problems_of(studio, options);
   if (core::any_error(problems)) return problems;
-  return problems_of(goal, twin.at(options.full_size).geometry() != nullptr);
+  problems = problems_of(goal, twin.at(options.full_size).geometry() != nullptr);
+  if (!options.wishes || core::any_error(problems)) return problems;
+  return problems_of(*options.wishes, studio, twin.at(options.full_size));
 }
 
 std::string goal_in_words(const Goal& goal) {
   const auto* example = std::get_if<ExampleGoal>(&goal);
   if (example == nullptr) return "ideal";
+  if (example->objective == Objective::painted) return "by hand: " + example->name;
   return std::string("by example, ") +
          (example->objective == Objective::wavelet ? "wavelet" : "perceptual") + ": " +
          example->name;
@@ -122,16 +125,41 @@ core::Rgb advised_exposure(const studio::Studio& studio, const Prepared& full, L
   return factor;
 }
 
+/// The warmth that is wished, and the bounds kept once more after the last stage.
+studio::Rig as_wished(const studio::Studio& studio, const Sizes& sizes, const Options& options,
+                      const Variables& all, const studio::Rig& rig) {
+  if (!options.wishes) return rig;
+  const studio::Rig warm =
+      with_warmth(studio, sizes.small.layers, all.lit, rig, options.wishes->warmth_mired);
+  const Prepared& small = sizes.small;
+  const Setting setting{studio, small.layers, all, small.target, small.map, Accuracy::cached};
+  return within_bounds(*options.wishes, studio, all,
+                       with_term_colours(setting, small.layers, warm));
+}
+
+void warn_of_bounds(const studio::Studio& studio, const Prepared& full, const Variables& all,
+                    Look& look) {
+  if (!full.target.asked) return;
+  const Setting setting{studio, full.layers, all, full.target, full.map, Accuracy::exact};
+  for (const std::string& word :
+       outcome_of(setting, look.wanted, core::luminance(look.picture)).broken)
+    look.warnings.push_back(word);
+}
+
 /// Solves again for the advised exposure, where there is one; the places stay.
 void advise_exposure(const studio::Studio& studio, const Layers& shown, const Sizes& sizes,
-                     const Goal& goal, const Variables& all, Watch& watch, Look& look) {
+                     const Goal& goal, const Options& options, const Variables& all, Watch& watch,
+                     Look& look) {
   const core::Rgb factor = advised_exposure(studio, sizes.full, look);
   if (factor == core::Rgb{1, 1, 1}) return;
   const ReexposedLayers small(sizes.small.layers, factor), middle(sizes.middle.layers, factor),
       full(sizes.full.layers, factor);
-  const Sizes again = prepare(studio, goal, all, small, middle, full);
-  look.wanted = completed(studio, again, all, look.wanted, false, watch);
-  look.placed = completed(studio, again, all, look.placed, false, watch);
+  const Sizes again = prepare(studio, goal, all, small, middle, full, options.wishes);
+  const auto solved = [&](const studio::Rig& rig) {
+    return as_wished(studio, again, options, all, completed(studio, again, all, rig, false, watch));
+  };
+  look.wanted = solved(look.wanted);
+  look.placed = solved(look.placed);
   describe(studio, ReexposedLayers(shown, factor), again.full, all, look);
 }
 
@@ -156,16 +184,22 @@ core::Result<Look> design(const studio::Studio& studio, const LayersSource& twin
   look.warnings = match.words;
   const Compared compared(twin, match.skin);
   const Layers& layers = twin.at(options.full_size);
-  const Sizes sizes = prepare(studio, goal, all, compared.at(options.search_size),
-                              compared.at(options.polish_size), compared.at(options.full_size));
+  const Sizes sizes =
+      prepare(studio, goal, all, compared.at(options.search_size), compared.at(options.polish_size),
+              compared.at(options.full_size), options.wishes);
   const studio::Rig placements =
       wanted_placements(studio, sizes, goal, options, all, watch, look.warnings);
   look.wanted = options.reference
                     ? reference_rig(studio, goal, options, all, sizes.full, watch)
                     : completed(studio, sizes, all, placements, options.move_stands, watch);
-  look.placed = completed(studio, sizes, all, placed_now(studio, all, look.wanted), false, watch);
+  look.wanted = as_wished(studio, sizes, options, all, look.wanted);
+  look.placed =
+      as_wished(studio, sizes, options, all,
+                completed(studio, sizes, all, placed_now(studio, all, look.wanted), false, watch));
   describe(studio, layers, sizes.full, all, look);
-  if (options.advise_exposure) advise_exposure(studio, layers, sizes, goal, all, watch, look);
+  if (options.advise_exposure)
+    advise_exposure(studio, layers, sizes, goal, options, all, watch, look);
+  warn_of_bounds(studio, sizes.full, all, look);
 
   if (std::string unseen = unseen_in_words(studio, layers); !unseen.empty())
     look.warnings.push_back(std::move(unseen));

@@ -24,7 +24,8 @@ namespace chiaro::design {
 struct IdealGoal {
   measure::TermWeights weights;
 };
-enum class Objective { perceptual, wavelet };
+/// painted: every pixel for itself, weighted; see paint.h.
+enum class Objective { perceptual, wavelet, painted };
 struct Matched;  // pattern.h
 /// Like this picture. `targets3d` comes with a 3D exemplar, whose geometry was known.
 struct ExampleGoal {
@@ -33,6 +34,9 @@ struct ExampleGoal {
   Objective objective = Objective::wavelet;
   std::optional<measure::Targets> targets3d;
   measure::TermWeights weights;
+  /// Painted pictures: how much each pixel counts, and what it was before; square, of one size.
+  core::Plane emphasis, unpainted;
+  bool follow_colour = true;  ///< false: lamps keep their colours
   /// The shipped sitter before the shipped studio's camera, as chiaro-draw draws moods: face and
   /// skin are known.
   bool drawn_here = false;
@@ -40,6 +44,8 @@ struct ExampleGoal {
   std::shared_ptr<const Matched> matched;  ///< the engine's own: callers leave it null
 };
 using Goal = std::variant<IdealGoal, ExampleGoal>;
+
+struct Wishes;  // wishes.h
 
 struct Progress {
   std::uint64_t trial = 0, trials = 0;
@@ -62,6 +68,7 @@ struct Options {
   /// By example: compare how the light falls on the face, whatever the skin, the clothes and the
   /// background; see pattern.h. Levels then do not depend on our sitter's skin.
   bool normalise = false;
+  std::shared_ptr<const Wishes> wishes;  ///< beside the goal; null: none
   bool glasses = false;    ///< the sitter wears them: places whose lamp shows in them cost more
   bool reference = false;  ///< yardstick: no cache, one thread, levels searched
   /// Squares whose side is a power of two. Search: where tracing is cheapest. Polish: the best few

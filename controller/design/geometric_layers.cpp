@@ -21,6 +21,7 @@ namespace {
 /// What every size shares. Immutable after construction.
 struct Twin {
   studio::Studio studio;
+  studio::Camera camera;  ///< whose view it is
   GeometricOptions options;
   std::shared_ptr<const twin::Geometry> geometry;
   std::shared_ptr<const render::Tracer> tracer;
@@ -60,7 +61,7 @@ class GeometricLayers : public Layers {
  public:
   GeometricLayers(const Twin& twin, core::Size size)
       : twin_(twin),
-        view_(render::see(twin.tracer, twin.studio.main_camera(), size)),
+        view_(render::see(twin.tracer, twin.camera, size)),
         planes_(core::planes(view_.buffer)),
         cache_(view_, twin.studio, twin.options.visibility_cache_bytes, spacing_for(size)),
         ambient_(make_ambient()) {
@@ -268,10 +269,8 @@ class GeometricSource : public LayersSource {
   explicit GeometricSource(Twin twin)
       : twin_(std::move(twin)), arena_(std::max(1, twin_.options.threads)) {
     if (!twin_.bounced) return;
-    arena_.execute([&] {
-      twin_.bounces =
-          std::make_shared<render::BounceField>(twin_.tracer, twin_.studio.main_camera());
-    });
+    arena_.execute(
+        [&] { twin_.bounces = std::make_shared<render::BounceField>(twin_.tracer, twin_.camera); });
     // Refers to the studio of this very object.
     twin_.bounce_cache =
         std::make_shared<render::BounceCache>(*twin_.bounces, twin_.studio, twin_.geometry->aim);
@@ -307,11 +306,13 @@ core::Result<core::Picture> read_linear(const std::filesystem::path& file) {
 namespace {
 
 core::Result<std::unique_ptr<LayersSource>> made(const studio::Studio& studio,
-                                                 const GeometricOptions& options, bool bounced) {
+                                                 const GeometricOptions& options, bool bounced,
+                                                 std::size_t camera = 0) {
   if (studio.cameras.empty())
     return core::Problem{{studio.file.string(), 0, 0}, "the studio has no camera", "add one: main"};
   Twin twin;
   twin.studio = studio;
+  twin.camera = studio.cameras[camera];
   twin.options = options;
   twin.bounced = bounced;
   auto geometry = twin::build_geometry(studio, options.mesh_cache);
@@ -324,7 +325,7 @@ core::Result<std::unique_ptr<LayersSource>> made(const studio::Studio& studio,
   }
   tbb::task_arena arena(std::max(1, options.threads));
   arena.execute([&] { twin.tracer = std::make_shared<const render::Tracer>(twin.geometry); });
-  twin.gain = studio::exposure_gain(studio.exposure, studio.main_camera());
+  twin.gain = studio::exposure_gain(studio.exposure, twin.camera);
   return std::unique_ptr<LayersSource>(std::make_unique<GeometricSource>(std::move(twin)));
 }
 
@@ -337,6 +338,16 @@ core::Result<std::unique_ptr<LayersSource>> geometric_layers(const studio::Studi
 core::Result<std::unique_ptr<LayersSource>> bounced_layers(const studio::Studio& studio,
                                                            const GeometricOptions& options) {
   return made(studio, options, true);
+}
+
+core::Result<std::unique_ptr<LayersSource>> layers_of_camera(const studio::Studio& studio,
+                                                             const std::string& camera,
+                                                             const GeometricOptions& options) {
+  for (std::size_t i = 0; i < studio.cameras.size(); ++i)
+    if (studio.cameras[i].name == camera) return made(studio, options, true, i);
+  return core::Problem{{studio.file.string(), 0, 0},
+                       "the studio has no camera \"" + camera + "\"",
+                       "name one of the studio file's cameras"};
 }
 
 std::shared_ptr<const render::Tracer> tracer_of(const LayersSource& source) {

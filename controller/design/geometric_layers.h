@@ -13,6 +13,11 @@ namespace chiaro::design {
 core::Result<std::unique_ptr<LayersSource>> bounced_layers(const studio::Studio& studio,
                                                            const GeometricOptions& options);
 
+/// As bounced_layers, seen by another camera of the studio: the same lamps, exposed as that one is.
+core::Result<std::unique_ptr<LayersSource>> layers_of_camera(const studio::Studio& studio,
+                                                             const std::string& camera,
+                                                             const GeometricOptions& options);
+
 /// The tracer of a source made by geometric_layers, for a picture at any size or another camera.
 /// Null for any other source.
 std::shared_ptr<const render::Tracer> tracer_of(const LayersSource& source);

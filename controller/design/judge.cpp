@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "controller/design/asked.h"
+#include "controller/design/painted_levels.h"
 #include "controller/design/words.h"
 
 namespace chiaro::design {
@@ -17,6 +19,9 @@ constexpr double kReached = 0.05, kReachedWavelet = 0.08, kNear = 0.28;
 // On another person's face: what the very light of an exemplar leaves between two heads, in the
 // middle of those of `chiaro study transfer`.
 constexpr double kReachedPattern = 0.14;
+// Painted pictures: what a stroke asks for, and that nothing else changes, is seldom all to be had;
+// a quarter of it missing is hardly seen.
+constexpr double kReachedPainted = 0.25, kNearPainted = 0.75;
 // A lamp limits when it is at its limit, wants a sixth of a stop more, and more would help.
 constexpr double kAtLimit = 0.995, kShortStops = 1.0 / 6, kHelps = 0.02;
 constexpr double kMostStops = 6;             // the unlimited solve looks no further
@@ -202,15 +207,30 @@ std::vector<Component> component_list(const Setting& setting, Workspace& workspa
     list.push_back(
         {"wavelet_distance", 0.0,
          workspace.solver().cost(workspace.columns(rig), levels_of(setting.variables, rig))});
+  if (setting.target.asked)
+    for (Component& each : outcome_of(setting, rig, picture).components)
+      list.push_back(std::move(each));
   return list;
 }
 
-double residual_of(const Setting& setting, Workspace& workspace, const studio::Rig& rig) {
+namespace {
+
+/// What is left of the way from the picture as it was to what was painted.
+double painted_residual(const Setting& setting, Workspace& workspace, const studio::Rig& rig) {
+  core::Plane picture;
+  mix(workspace.columns(rig), levels_of(setting.variables, rig), picture);
+  const double before = painted_distance(setting.target, setting.target.unpainted);
+  return before > 0 ? painted_distance(setting.target, picture) / before : 0;
+}
+
+double goal_residual(const Setting& setting, Workspace& workspace, const studio::Rig& rig) {
   const double cost = workspace.score(rig).cost;
   switch (setting.target.kind) {
     case Target::Kind::wavelet:
     case Target::Kind::pattern:
       return wavelet_residual(setting, workspace, rig, cost);
+    case Target::Kind::painted:
+      return painted_residual(setting, workspace, rig);
     case Target::Kind::perceptual:
       return component_residual(setting, workspace, rig);
     case Target::Kind::ideal: {
@@ -221,14 +241,27 @@ double residual_of(const Setting& setting, Workspace& workspace, const studio::R
   return 0;
 }
 
+}  // namespace
+
+double residual_of(const Setting& setting, Workspace& workspace, const studio::Rig& rig) {
+  const double residual = goal_residual(setting, workspace, rig);
+  if (!setting.target.asked) return residual;
+  core::Plane picture;
+  mix(workspace.columns(rig), levels_of(setting.variables, rig), picture);
+  const Outcome outcome = outcome_of(setting, rig, picture);
+  return std::max({residual, outcome.worst, outcome.broken.empty() ? 0.0 : 1.0});
+}
+
 Judgement judge(const Setting& setting, Workspace& workspace, const studio::Rig& rig) {
   Judgement judgement;
   judgement.residual = residual_of(setting, workspace, rig);
   const double reached = setting.target.kind == Target::Kind::wavelet   ? kReachedWavelet
                          : setting.target.kind == Target::Kind::pattern ? kReachedPattern
+                         : setting.target.kind == Target::Kind::painted ? kReachedPainted
                                                                         : kReached;
+  const double near = setting.target.kind == Target::Kind::painted ? kNearPainted : kNear;
   judgement.verdict = judgement.residual <= reached ? Verdict::reached
-                      : judgement.residual <= kNear ? Verdict::near
+                      : judgement.residual <= near  ? Verdict::near
                                                     : Verdict::not_reachable;
   const double cost = workspace.score(rig).cost;
   const auto lamp = limiting_lamp(setting, rig, unlimited(setting, workspace, rig), cost);

@@ -131,6 +131,8 @@ Match matched(const studio::Studio& studio, const LayersSource& twin, const Goal
   const auto* example = std::get_if<ExampleGoal>(&goal);
   const core::GeometryPlanes* planes = twin.at(options.full_size).geometry();
   if (example == nullptr || (!options.align && !options.normalise)) return match;
+  // Painted on our own picture: it lies pixel on pixel.
+  if (example->objective == Objective::painted) return match;
   // Its face is not where a sitter's is who looks at the camera: compared as it was drawn.
   if (example->drawn_here && example->sitter_turn != 0) return match;
   const std::optional<OurFace> ours =

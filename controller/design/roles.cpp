@@ -56,7 +56,7 @@ studio::Rig without_idle_lamps(const Setting& setting, studio::Rig rig) {
   Columns columns = workspace.columns(rig);
   Levels best = workspace.solver().solve(columns, Effort::thorough);
   const bool grey =
-      setting.target.kind == Target::Kind::wavelet || setting.target.kind == Target::Kind::pattern;
+      setting.target.kind != Target::Kind::ideal && setting.target.kind != Target::Kind::perceptual;
   const double most = kIdle * best.cost + (grey ? kUnseenGrey : kUnseenCost);
   std::vector<std::size_t> order(lit.size());
   for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "controller/design/asked.h"
 #include "controller/design/colours.h"
 #include "controller/design/ideal.h"
 #include "controller/design/roles.h"
@@ -18,7 +19,7 @@ bool is_ideal(const Goal& goal) { return std::holds_alternative<IdealGoal>(goal)
 /// compared place by place tells.
 bool tells_directions(const Goal& goal) {
   const auto* example = std::get_if<ExampleGoal>(&goal);
-  return example != nullptr && example->objective == Objective::wavelet;
+  return example != nullptr && example->objective != Objective::perceptual;
 }
 
 /// The thesis keeps the key to the quarter sphere in front and above [I-5]. A region that lies
@@ -89,6 +90,14 @@ Prepared prepared(const Layers& layers, const Goal& goal) {
   return result;
 }
 
+std::shared_ptr<const Asked> asked_beside(const Prepared& prepared,
+                                          const std::shared_ptr<const Wishes>& wishes,
+                                          const studio::Studio& studio, const Goal& goal) {
+  auto asked = asked_of(wishes, studio, prepared.layers, goal);
+  for (Asked::Side& side : asked->sides) side.target.ideal = prepared.target.ideal;
+  return asked;
+}
+
 double placed_gradient(const studio::Studio& studio, const Prepared& at, const Variables& shape) {
   if (shape.lit.empty()) return 0;
   const std::size_t lamp = key_of(studio).value_or(shape.lit.front());
@@ -111,9 +120,15 @@ Variables searched(const studio::Studio& studio, const Variables& all, const Goa
 }
 
 Sizes prepare(const studio::Studio& studio, const Goal& goal, const Variables& variables,
-              const Layers& small, const Layers& middle, const Layers& full) {
+              const Layers& small, const Layers& middle, const Layers& full,
+              std::shared_ptr<const Wishes> wishes) {
   Sizes sizes{prepared(small, goal), prepared(middle, goal), prepared(full, goal)};
-  if (!is_ideal(goal)) return sizes;
+  const auto with_wishes = [&] {
+    for (Prepared* each : {&sizes.small, &sizes.middle, &sizes.full})
+      if (wishes) each->target.asked = asked_beside(*each, wishes, studio, goal);
+    return std::move(sizes);
+  };
+  if (!is_ideal(goal)) return with_wishes();
   const Variables shape = searched(studio, variables, goal);
   sizes.small.target.ideal =
       attainable_targets(setting_of(studio, sizes.small, shape, Accuracy::cached));
@@ -124,7 +139,7 @@ Sizes prepare(const studio::Studio& studio, const Goal& goal, const Variables& v
     const double here = placed_gradient(studio, *each, shape);
     if (there > 0) each->target.ideal.gradient *= here / there;
   }
-  return sizes;
+  return with_wishes();
 }
 
 studio::Rig completed(const studio::Studio& studio, const Sizes& sizes, const Variables& all,

@@ -3,6 +3,7 @@
 // order.
 #pragma once
 
+#include "controller/design/asked.h"
 #include "controller/design/search.h"
 
 namespace chiaro::design {
@@ -18,8 +19,10 @@ struct Sizes {
   Prepared small, middle, full;
 };
 /// For ideal goals the scene is probed, on the small picture, for what it can show.
+/// `wishes` may be null.
 Sizes prepare(const studio::Studio& studio, const Goal& goal, const Variables& variables,
-              const Layers& small, const Layers& middle, const Layers& full);
+              const Layers& small, const Layers& middle, const Layers& full,
+              std::shared_ptr<const Wishes> wishes = nullptr);
 
 /// The lamps that the outer search moves: all of them, in ideal those of stage one.
 Variables searched(const studio::Studio& studio, const Variables& all, const Goal& goal);

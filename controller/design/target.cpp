@@ -98,18 +98,23 @@ Target target_of(const Goal& goal, core::Size size, const core::GeometryPlanes* 
   if (const auto* ideal = std::get_if<IdealGoal>(&goal)) return ideal_target(*ideal, size);
   const auto& example = std::get<ExampleGoal>(goal);
   Target target;
-  target.kind =
-      example.objective == Objective::wavelet ? Target::Kind::wavelet : Target::Kind::perceptual;
+  target.kind = example.objective == Objective::wavelet   ? Target::Kind::wavelet
+                : example.objective == Objective::painted ? Target::Kind::painted
+                                                          : Target::Kind::perceptual;
   target.size = size;
   const core::Picture exemplar = central_square(example.exemplar);
   target.colour = core::resized(exemplar, size);
   target.luminance = core::luminance(target.colour);
   target.values = measure::working_scalar(target.luminance);
   target.clipped = clipped_pixels(target.colour);
-  target.coloured = has_colour(target.colour);
+  target.coloured = example.follow_colour && has_colour(target.colour);
   target.weights = example.weights;
   target.by_geometry = example.targets3d.has_value();
   target.targets = targets_for(example, exemplar, target);
+  if (target.kind == Target::Kind::painted) {
+    target.emphasis = core::resized(example.emphasis, size);
+    target.unpainted = core::resized(example.unpainted, size);
+  }
   if (example.matched && target.kind == Target::Kind::wavelet) {
     target.kind = Target::Kind::pattern;
     target.pattern = std::make_shared<const Pattern>(pattern_of(*example.matched, planes, size));

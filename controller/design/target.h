@@ -14,9 +14,10 @@ namespace chiaro::design {
 inline constexpr core::Size kMeasuredSize{256, 256};
 
 struct Pattern;  // pattern.h
+struct Asked;    // asked.h
 
 struct Target {
-  enum class Kind { ideal, perceptual, wavelet, pattern };
+  enum class Kind { ideal, perceptual, wavelet, pattern, painted };
   Kind kind = Kind::ideal;
   core::Size size;
 
@@ -36,6 +37,9 @@ struct Target {
   /// exemplar's were [I-19, I-29].
   bool by_geometry = false;
   std::shared_ptr<const Pattern> pattern;  ///< of Kind::pattern
+  core::Plane emphasis;                    ///< of Kind::painted: how much each pixel counts
+  core::Plane unpainted;                   ///< and its luminance before it was painted
+  std::shared_ptr<const Asked> asked;      ///< wishes beside the goal; null: none
 };
 
 /// Every reason why a goal cannot be worked with (an empty exemplar, no geometry for ideal).

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "controller/design/asked.h"
 #include "controller/design/comfort.h"
 
 namespace chiaro::design {
@@ -65,7 +66,10 @@ Workspace::Workspace(const Setting& setting)
     lit_ = core::Plane(setting.layers.size());
     columns_.lit = &lit_;
   }
+  if (setting.target.asked) asked_ = std::make_unique<AskedOfPlaces>(setting);
 }
+
+Workspace::~Workspace() = default;
 
 void Workspace::fetch(const studio::Rig& rig, std::size_t fixture, core::Plane& plane,
                       core::FixtureState& known) {
@@ -112,6 +116,7 @@ const Columns& Workspace::columns(const studio::Rig& rig) {
   for (std::size_t k = 0; k < lit.size(); ++k) fetch(rig, lit[k], planes_[k], known_[k]);
   fetch_offset(rig);
   fetch_shadows(rig);
+  if (asked_) asked_->update(rig, columns_);
   return columns_;
 }
 

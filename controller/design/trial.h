@@ -16,6 +16,8 @@
 
 namespace chiaro::design {
 
+class AskedOfPlaces;  // asked.h
+
 /// What every trial of one stage shares; all borrowed, constant while trials run.
 struct Setting {
   const studio::Studio& studio;
@@ -34,6 +36,7 @@ measure::PixelMap map_for(const Layers& layers, const Target& target);
 class Workspace {
  public:
   explicit Workspace(const Setting& setting);
+  ~Workspace();
 
   struct Scored {
     double cost = std::numeric_limits<double>::infinity();  ///< +infinity: a lamp must not be there
@@ -65,6 +68,7 @@ class Workspace {
   std::optional<std::size_t> key_;
   Columns columns_;
   std::unique_ptr<LevelSolver> solver_;
+  std::unique_ptr<AskedOfPlaces> asked_;  ///< null: no wishes
 };
 
 /// Hands workspaces to the optimiser's threads. Thread-safe.

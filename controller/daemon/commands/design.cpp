@@ -11,11 +11,15 @@
 
 #include "controller/core/picture_file.h"
 #include "controller/daemon/command.h"
+#include "controller/daemon/named_goal.h"
 #include "controller/daemon/problems.h"
 #include "controller/design/blend.h"
+#include "controller/design/by_hand.h"
+#include "controller/design/environment.h"
 #include "controller/design/geometric_layers.h"
 #include "controller/design/moods.h"
 #include "controller/design/words.h"
+#include "controller/measure/picture_terms/picture_term.h"
 #include "controller/studio/load.h"
 
 namespace chiaro::daemon {
@@ -23,9 +27,10 @@ namespace {
 
 /// As typed.
 struct Asked {
-  std::string studio, mood, exemplar, targets, goal = "wavelet", optimiser, exposure = "locked";
+  std::string studio, mood, exemplar, environment, targets, goal = "wavelet", optimiser,
+                                                            exposure = "locked";
   std::string align = "auto", normalise = "auto", out, picture, budget, blend;
-  std::vector<std::string> lock;
+  std::vector<std::string> lock, term;
   std::uint64_t seed = 1, trials = 0;
   int threads = 0;
   bool ideal = false, reference = false, glasses = false;
@@ -77,38 +82,6 @@ class ProgressLine {
   std::string stage_;
 };
 
-core::Result<design::Goal> mood_goal(const std::string& wanted, const studio::Folders& folders,
-                                     design::Objective objective, ports::World& world) {
-  const design::Moods moods = design::load_moods(folders.moods());
-  std::vector<std::string> names;
-  std::string list;
-  for (const design::Mood& mood : moods.moods) {
-    names.push_back(mood.name);
-    list += (list.empty() ? "" : ", ") + mood.name;
-    if (mood.name != wanted) continue;
-    auto goal = design::goal_of(mood, objective);
-    if (!goal) return goal.problems();
-    return design::Goal(*std::move(goal));
-  }
-  for (const core::Problem& problem : moods.problems) world.err << core::to_string(problem) << "\n";
-  const std::string near = core::nearest_name(wanted, names);
-  return core::Problem{{},
-                       "no mood is called \"" + wanted + "\"",
-                       list.empty() ? "there are none in " + folders.moods().string()
-                                    : (near.empty() ? "" : "did you mean \"" + near + "\"? ") +
-                                          "there are: " + list};
-}
-
-core::Result<design::Goal> picture_goal(const std::string& file, design::Objective objective) {
-  auto picture = core::read_picture(file);
-  if (!picture) return picture.problems();
-  design::ExampleGoal goal;
-  goal.name = std::filesystem::path(file).stem().string();
-  goal.exemplar = core::linear_at_most(*picture);
-  goal.objective = objective;
-  return design::Goal(std::move(goal));
-}
-
 /// "0.4" of "other=0.4"; nothing when that is not a share.
 std::optional<double> share_of(const std::string& blend) {
   const std::size_t equals = blend.rfind('=');
@@ -130,6 +103,63 @@ core::Result<design::Goal> blended_goal(const design::Goal& from, const Asked& a
   return design::Goal(design::blended(std::get<design::ExampleGoal>(from),
                                       std::get<design::ExampleGoal>(*to),
                                       share_of(asked.blend).value_or(0)));
+}
+
+bool is_by_hand(const Asked& asked) {
+  return asked.goal != "wavelet" && asked.goal != "perceptual";
+}
+
+/// "entropy=0.5", "key_fill:8=1"; nothing when it is not so written.
+std::optional<design::TermShare> term_of(const std::string& text) {
+  const std::size_t equals = text.rfind('='), colon = text.find(':');
+  if (equals == std::string::npos || equals == 0) return std::nullopt;
+  design::TermShare share;
+  share.name = text.substr(0, std::min(colon, equals));
+  char rest = 0;
+  if (std::sscanf(text.c_str() + equals + 1, "%lf%c", &share.weight, &rest) != 1 ||
+      !(share.weight >= 0 && share.weight <= 100))
+    return std::nullopt;
+  if (colon > equals) return share;
+  double wanted = 0;
+  if (std::sscanf(text.c_str() + colon + 1, "%lf%c", &wanted, &rest) != 2 || rest != '=')
+    return std::nullopt;
+  share.wanted = wanted;
+  return share;
+}
+
+bool named(const Asked& asked) {
+  return asked.ideal || !asked.mood.empty() || !asked.exemplar.empty() ||
+         !asked.environment.empty();
+}
+
+/// The file of --goal, and what else was typed as what it should be like.
+core::Result<design::GoalByHand> hand_from(Asked& asked, const studio::Studio& studio) {
+  const auto text = text_of(asked.goal);
+  if (!text) return text.problems();
+  const auto folder = std::filesystem::absolute(asked.goal).parent_path();
+  auto hand = design::goal_from_json(*text, asked.goal, studio, folder);
+  if (!hand) return hand;
+  using Like = design::GoalByHand::Like;
+  if (named(asked) && hand->like != Like::nothing)
+    return core::Problem{{asked.goal},
+                         "what the picture should be like stands in the file and on the command "
+                         "line",
+                         "leave out --ideal, --mood or --exemplar, or \"like\""};
+  asked.ideal = asked.ideal || hand->like == Like::ideal;
+  if (hand->like == Like::mood) asked.mood = hand->name;
+  if (hand->like == Like::exemplar) asked.exemplar = hand->name;
+  asked.goal = hand->objective == design::Objective::perceptual ? "perceptual" : "wavelet";
+  return hand;
+}
+
+/// The rig whose picture is painted on.
+core::Result<studio::Rig> rig_of(const design::GoalByHand& hand, const studio::Studio& studio) {
+  if (hand.like != design::GoalByHand::Like::look) return studio::placed_rig(studio);
+  const auto text = text_of(hand.name);
+  if (!text) return text.problems();
+  auto look = design::look_from_json(studio, *text, hand.name);
+  if (!look) return look.problems();
+  return look->wanted;
 }
 
 core::Result<design::Goal> goal_from(const Asked& asked, const studio::Folders& folders,
@@ -206,10 +236,19 @@ void print_lamps(const studio::Studio& studio, const studio::Rig& rig, std::ostr
   }
 }
 
+/// What was asked by hand, beside what came of it.
+void print_wishes(const design::Look& look, std::ostream& out) {
+  for (const design::Component& each : look.components)
+    if (each.name.find(' ') != std::string::npos && each.target)
+      out << "  " << each.name << ": " << design::number(each.value, each.value < 10 ? 2 : 0)
+          << ", asked " << design::number(*each.target, *each.target < 10 ? 2 : 0) << "\n";
+}
+
 void print_summary(const studio::Studio& studio, const design::Look& look, std::ostream& out) {
   out << look.name << " (" << look.goal << "): " << design::name_of(look.judgement.verdict) << ", "
       << per_cent(look.judgement.residual) << " % off\n";
   if (!look.judgement.remedy.empty()) out << "  " << look.judgement.remedy << "\n";
+  print_wishes(look, out);
   print_lamps(studio, look.wanted, out);
   if (const std::string ratio = design::ratio_in_words(studio, look.wanted); !ratio.empty())
     out << "  " << ratio << "\n";
@@ -245,13 +284,39 @@ ports::Exit write_results(const Asked& asked, const studio::Studio& studio,
   return ports::Exit::done;
 }
 
-ports::Exit run_design(const Asked& asked, ports::World& world, bool json) {
+/// Mid grey on average: what a meter in that place would make of the subject.
+core::Result<design::Goal> place_goal(const std::string& file, const studio::Studio& studio,
+                                      const design::LayersSource& twin, core::Size size) {
+  const auto probe = core::read_linear(file);
+  if (!probe) return probe.problems();
+  auto goal = design::environment_goal(studio, twin, *probe,
+                                       std::filesystem::path(file).stem().string(), 50, size);
+  if (!goal) return goal.problems();
+  return design::Goal(*std::move(goal));
+}
+
+ports::Exit run_design(Asked asked, ports::World& world, bool json) {
   const studio::Folders folders{world.config_folder};
   auto loaded = studio::load_studio(asked.studio, folders);
   if (!loaded) return refuse(loaded.problems(), world, json);
   world.err << core::to_string(loaded->warnings);
-  auto goal = goal_from(asked, folders, world);
-  if (!goal) return refuse(goal.problems(), world, json);
+  std::optional<design::GoalByHand> hand;
+  if (is_by_hand(asked)) {
+    auto read = hand_from(asked, loaded->studio);
+    if (!read) return refuse(read.problems(), world, json);
+    hand = *std::move(read);
+  }
+  std::optional<design::Goal> like;
+  if ((!hand || named(asked)) && asked.environment.empty()) {
+    auto goal = goal_from(asked, folders, world);
+    if (!goal) return refuse(goal.problems(), world, json);
+    like = *std::move(goal);
+  }
+  const auto rig = hand ? rig_of(*hand, loaded->studio)
+                        : core::Result<studio::Rig>(studio::placed_rig(loaded->studio));
+  if (!rig) return refuse(rig.problems(), world, json);
+  if (!asked.term.empty() && !hand) hand.emplace();
+  for (const std::string& term : asked.term) hand->wishes->terms.push_back(*term_of(term));
   ProgressLine line(world);
   const design::Options options = options_from(asked, world, line);
   design::GeometricOptions geometric;
@@ -260,7 +325,18 @@ ports::Exit run_design(const Asked& asked, ports::World& world, bool json) {
   geometric.threads = options.threads;
   auto twin = design::bounced_layers(loaded->studio, geometric);
   if (!twin) return refuse(twin.problems(), world, json);
-  core::Result<design::Look> look = design::design(loaded->studio, **twin, *goal, options);
+  if (!asked.environment.empty()) {
+    auto goal = place_goal(asked.environment, loaded->studio, **twin, options.full_size);
+    if (!goal) return refuse(goal.problems(), world, json);
+    like = *std::move(goal);
+  }
+  if (hand)
+    if (auto problems = design::with_twins(*hand->wishes, loaded->studio, geometric);
+        !problems.empty())
+      return refuse(problems, world, json);
+  core::Result<design::Look> look =
+      hand ? design::design_by_hand(loaded->studio, **twin, *hand, like, *rig, options)
+           : design::design(loaded->studio, **twin, *like, options);
   line.clear();
   if (!look) return refuse(look.problems(), world, json);
   return write_results(asked, loaded->studio, *look, json, world);
@@ -272,9 +348,17 @@ void add_options(CLI::App& verb, Asked& asked) {
   what->add_flag("--ideal", asked.ideal, "show the subject's shape as well as can be");
   what->add_option("--mood", asked.mood, "a mood by name");
   what->add_option("--exemplar", asked.exemplar, "any picture whose lighting you like");
-  what->require_option(1);
-  verb.add_option("--goal", asked.goal, "how a picture is compared (default wavelet)")
-      ->check(CLI::IsMember({"perceptual", "wavelet"}));
+  what->add_option(
+          "--environment", asked.environment,
+          "a place's light: a light probe or panorama twice as wide as high (.exr, .hdr or "
+          "any picture), its middle towards the camera")
+      ->check(CLI::ExistingFile);
+  what->require_option(0, 1);
+  verb.add_option(
+          "--goal", asked.goal,
+          "how a picture is compared: wavelet (default) or perceptual; or a goal by hand: a "
+          "JSON file of what is painted, wished and must hold (see config/goals)")
+      ->check(CLI::IsMember({"perceptual", "wavelet"}) | CLI::ExistingFile);
   verb.add_option("--targets", asked.targets, "edge and contrast targets of a 3D exemplar (YAML)")
       ->check(CLI::ExistingFile)
       ->needs("--exemplar");
@@ -284,6 +368,18 @@ void add_options(CLI::App& verb, Asked& asked) {
       ->check([](const std::string& text) {
         return share_of(text) ? std::string()
                               : "\"" + text + "\" is not a name and a share such as split=0.4";
+      });
+  std::string terms;
+  for (const auto& term : measure::terms::picture_terms())
+    terms += (terms.empty() ? "" : ", ") + std::string(term.name);
+  verb.add_option("--term", asked.term,
+                  "NAME=WEIGHT or NAME:WANTED=WEIGHT: asks for more beside the goal (may be "
+                  "repeated): " +
+                      terms)
+      ->allow_extra_args(false)
+      ->check([](const std::string& text) {
+        return term_of(text) ? std::string()
+                             : "\"" + text + "\" is not a term and its weight such as entropy=0.5";
       });
   verb.add_option("--optimiser", asked.optimiser, "how places are searched (default sbplx)");
   verb.add_option("--seed", asked.seed, "same seed and trials, same look (default 1)");
@@ -322,8 +418,12 @@ void declare_design(CLI::App& app, ports::World& world, Verdict& verdict) {
   auto asked = std::make_shared<Asked>();
   CLI::App* verb = app.add_subcommand("design", "a look from a mood, a picture or none");
   add_options(*verb, *asked);
-  verb->callback(
-      [asked, &world, &verdict] { verdict.exit = run_design(*asked, world, verdict.json); });
+  verb->callback([asked, &world, &verdict] {
+    if (!is_by_hand(*asked) && !named(*asked))
+      throw CLI::RequiredError(
+          "one of --ideal, --mood, --exemplar, --environment, or --goal FILE.json");
+    verdict.exit = run_design(*asked, world, verdict.json);
+  });
 }
 
 }  // namespace chiaro::daemon

@@ -3,6 +3,7 @@
 // of any picture. The studio lends the geometry that edge and contrast need, the look the key's
 // shadow.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <memory>
@@ -14,21 +15,15 @@
 #include "controller/daemon/measurement.h"
 #include "controller/daemon/problems.h"
 #include "controller/design/design.h"
+#include "controller/design/target.h"
 #include "controller/studio/load.h"
 
 namespace chiaro::daemon {
 namespace {
 
 struct Wish {
-  std::string picture, studio, look;
+  std::string picture, studio, look, targets;
 };
-
-core::Result<core::Picture> read_linear(const std::string& file) {
-  if (std::filesystem::path(file).extension() == ".exr") return core::read_exr(file);
-  const auto picture = core::read_picture(file);
-  if (!picture) return picture.problems();
-  return core::linear(*picture);
-}
 
 /// The size at which the camera's geometry is compared: its own, or its central square for a square
 /// picture (a mood, a preview).
@@ -86,9 +81,65 @@ core::Result<Measurement> measured_with_studio(const Wish& wish, core::Picture p
                      lit->empty() ? nullptr : &*lit);
 }
 
+/// The central square as targets are measured on it [I-29]: a 3D exemplar's, where a studio lends
+/// its geometry; else a 2D exemplar's, without edge and contrast.
+core::Result<measure::Targets> targets_of(const Wish& wish, const core::Picture& picture,
+                                          ports::World& world) {
+  const core::Size size = picture.size();
+  const int side = std::min(size.width, size.height);
+  core::Picture square({side, side});
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x)
+      square.set(x, y, picture.at(x + (size.width - side) / 2, y + (size.height - side) / 2));
+  const core::Plane light = core::luminance(core::resized(square, design::kMeasuredSize));
+  measure::PixelMap map = measure::flat_pixel_map(design::kMeasuredSize);
+  if (!wish.studio.empty()) {
+    const auto loaded = studio::load_studio(wish.studio, {world.config_folder});
+    if (!loaded) return loaded.problems();
+    const auto twin =
+        design::geometric_layers(loaded->studio, {.mesh_cache = world.state_folder / "meshes"});
+    if (!twin) return twin.problems();
+    map = measure::pixel_map(*(*twin)->at(design::kMeasuredSize).geometry());
+  }
+  return measure::targets_of(measure::components_of_luminance(light, map), !wish.studio.empty());
+}
+
+/// As design --targets reads it, for an editor.
+core::Problems write_targets(const std::string& file, const measure::Targets& targets) {
+  std::ofstream out(file, std::ios::trunc);
+  out << "# Targets of an exemplar, to edit: leave out what should not count. Use them with\n"
+         "# chiaro design STUDIO --exemplar PICTURE --goal perceptual --targets THIS_FILE\n"
+         "targets:\n";
+  const auto line = [&](const char* name, const std::optional<double>& value) {
+    if (value) out << "  " << name << ": " << core::number(*value, 5) << "\n";
+  };
+  line("edge", targets.edge);
+  line("mean", targets.mean);
+  line("gradient", targets.gradient);
+  line("variance", targets.variance);
+  line("contrast", targets.contrast);
+  if (targets.histogram) {
+    out << "  histogram:\n    [";
+    for (std::size_t k = 0; k < 256; ++k)
+      out << (k == 0        ? ""
+              : k % 16 == 0 ? ",\n     "
+                            : ", ")
+          << core::number((*targets.histogram)[k], 7);
+    out << "]\n";
+  }
+  if (out.flush()) return {};
+  return {{{file}, "the targets cannot be written", "is there such a folder?"}};
+}
+
 ports::Exit run(const Wish& wish, ports::World& world, bool json) {
-  auto picture = read_linear(wish.picture);
+  auto picture = core::read_linear(wish.picture);
   if (!picture) return refuse(picture.problems(), world, json);
+  if (!wish.targets.empty()) {
+    const auto targets = targets_of(wish, *picture, world);
+    if (!targets) return refuse(targets.problems(), world, json);
+    if (auto bad = write_targets(wish.targets, *targets); !bad.empty())
+      return refuse(bad, world, json);
+  }
   core::Result<Measurement> result =
       wish.studio.empty() ? measurement(*picture, measure::flat_pixel_map(picture->size()), nullptr)
                           : measured_with_studio(wish, std::move(*picture), world);
@@ -112,6 +163,9 @@ void declare_measure(CLI::App& app, ports::World& world, Verdict& verdict) {
   verb->add_option("--look", wish->look,
                    "the look.json that was on: the key's cast shadow then counts less")
       ->needs(studio);
+  verb->add_option("--targets", wish->targets,
+                   "also write the picture's targets (YAML) to edit and to use with design "
+                   "--targets; with --studio those of a 3D exemplar");
   verb->callback([wish, &world, &verdict] { verdict.exit = run(*wish, world, verdict.json); });
 }
 

@@ -88,6 +88,25 @@ TEST_F(DesignCommand, UsageFaultsAreUsageFaults) {
   EXPECT_EQ(run({"--ideal", "--blend", "loop=0.5"}), ports::Exit::usage);
 }
 
+TEST_F(DesignCommand, AGoalByHandIsSolvedForAndSaysWhatCameOfIt) {
+  std::ofstream(file("goal.json"))
+      << R"({"wishes": [{"lightness": 55, "region": "face"}], "bounds": {"power": {"at_most": 0.2}}})";
+  ASSERT_EQ(run({"--goal", file("goal.json"), "--trials", "20", "--json"}), ports::Exit::done)
+      << fake_.err.str();
+  const auto components = nlohmann::json::parse(fake_.out.str())["components"];
+  EXPECT_NEAR(components["lightness of the face"]["value"].get<double>(), 55, 6);
+  EXPECT_LE(components["at most 20 % power"]["value"].get<double>(), 0.2001);
+}
+
+TEST_F(DesignCommand, AGoalByHandThatIsWrongIsRefusedWithEveryProblem) {
+  std::ofstream(file("goal.json")) << R"({"paint": [{"region": "fce", "stops": 9}], "mve": true})";
+  EXPECT_EQ(run({"--goal", file("goal.json")}), ports::Exit::input_has_problems);
+  for (const char* each : {"did you mean 'face'?", "-6 to 6", "did you mean 'move'?"})
+    EXPECT_NE(fake_.err.str().find(each), std::string::npos) << fake_.err.str();
+  std::ofstream(file("like.json")) << R"({"like": "ideal", "impressions": {"clear": 1}})";
+  EXPECT_EQ(run({"--mood", "split", "--goal", file("like.json")}), ports::Exit::input_has_problems);
+}
+
 TEST_F(DesignCommand, AnExemplarThatIsNoPictureIsRefused) {
   std::ofstream(file("no.png")) << "not a picture";
   EXPECT_EQ(run({"--exemplar", file("no.png")}), ports::Exit::input_has_problems);

@@ -5,6 +5,7 @@
 
 #include "controller/core/picture_file.h"
 #include "controller/daemon/command.h"
+#include "controller/design/moods.h"
 #include "tests/support/fake_world.h"
 
 namespace chiaro::daemon {
@@ -42,6 +43,22 @@ TEST(MeasureCommand, PrintsEveryComponentAndTheSpectrumForPeople) {
                            "wavelet", "--studio", "64 x 64"})
     EXPECT_NE(text.find(word), std::string::npos) << word << "\n" << text;
   EXPECT_TRUE(m.world.err.str().empty()) << m.world.err.str();
+}
+
+// [I-29]
+TEST(MeasureCommand, TargetsAreWrittenAsDesignReadsThem) {
+  Measured m;
+  m.run({m.picture({320, 256}, {30, 30, 30}, {220, 220, 220}), "--targets", m.file("t.yaml")});
+  ASSERT_EQ(m.exit, ports::Exit::done) << m.world.err.str();
+  const auto targets = design::load_targets(m.file("t.yaml"));
+  ASSERT_TRUE(targets) << core::to_string(targets.problems());
+  EXPECT_FALSE(targets->edge) << "no geometry is known";
+  EXPECT_NEAR(targets->mean.value(), (2.55 * 11.3 + 2.55 * 87.6) / 2, 4);
+  EXPECT_NEAR(targets->variance.value(), 2.55 * (87.6 - 11.3) / 2, 4);
+  ASSERT_TRUE(targets->histogram);
+  double sum = 0;
+  for (const double share : *targets->histogram) sum += share;
+  EXPECT_NEAR(sum, 1, 1e-4);
 }
 
 TEST(MeasureCommand, JsonHoldsTheNumbersOfAHalfBlackHalfWhitePicture) {
