@@ -65,6 +65,9 @@ struct Options {
   /// By example: lay the exemplar on the subject, by its face or its outline; mirrored where its
   /// sitter is turned the other way. Both of these off is the thesis.
   bool align = false;
+  /// As it was decided for a look before: levels solved again for stands as they are must follow
+  /// the same picture. Nothing: decided anew.
+  std::optional<bool> mirrored;
   /// By example: compare how the light falls on the face, whatever the skin, the clothes and the
   /// background; see pattern.h. Levels then do not depend on our sitter's skin.
   bool normalise = false;

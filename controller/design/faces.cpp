@@ -17,6 +17,7 @@ constexpr const char* kFolder = "/usr/share/opencv4/haarcascades/haarcascade_";
 // share of it on that still tells light from dark.
 constexpr int kShorter = 320;
 constexpr double kSmallest = 0.08;
+constexpr int kLongest = 3;  // times the shorter side
 constexpr double kStep = 1.1;
 constexpr int kNeighbours = 4;
 // Boxes that share this much are one face; a find on an evened picture is worth a little less.
@@ -135,11 +136,26 @@ std::vector<Find> sideways(const std::vector<cv::Mat>& pictures) {
   return finds;
 }
 
+/// The middle of a picture that is longer than kLongest: beyond it stands no portrait, and a strip
+/// brought to kShorter would be as large as its maker likes.
+core::Plane middle_of(const core::Plane& grey) {
+  const int shorter = std::min(grey.size.width, grey.size.height);
+  const core::Size size{std::min(grey.size.width, kLongest * shorter),
+                        std::min(grey.size.height, kLongest * shorter)};
+  if (size == grey.size) return grey;
+  const int left = (grey.size.width - size.width) / 2, top = (grey.size.height - size.height) / 2;
+  core::Plane middle(size);
+  for (int y = 0; y < size.height; ++y)
+    std::copy_n(grey.row(y + top) + left, size.width, middle.row(y));
+  return middle;
+}
+
 }  // namespace
 
-Faces faces_in(const core::Plane& grey) {
+Faces faces_in(const core::Plane& whole) {
   Faces faces;
-  if (grey.empty() || std::min(grey.size.width, grey.size.height) < 16) return faces;
+  if (whole.empty() || std::min(whole.size.width, whole.size.height) < 16) return faces;
+  const core::Plane grey = middle_of(whole);
   double scale = 1;
   const cv::Mat picture = working(grey, scale);
   const std::vector<cv::Mat> pictures{picture, evened(picture), lifted(picture)};

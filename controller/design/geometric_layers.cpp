@@ -229,6 +229,7 @@ class WithSkin : public Layers {
     }
     view_.samples = std::make_shared<const render::Samples>(buffer);
     ambient_ = bare.ambient_of(view_);
+    if (bare.twin().bounces) bounce_map_.emplace(*bare.twin().bounces, view_);
   }
 
   core::Size size() const override { return bare_.size(); }
@@ -238,12 +239,18 @@ class WithSkin : public Layers {
                  core::Plane& out) const override {
     bare_.with_visible(fixture, state, accuracy, [&](const twin::Light& light, const auto& seen) {
       render::luminance(view_, light, bare_.twin().gain, &seen, out, bare_.shading(accuracy));
+      if (bounce_map_)
+        bounce_map_->add_luminance(bare_.bounced(fixture, state, light, accuracy), light.colour,
+                                   bare_.twin().gain, out);
     });
   }
   void colour(std::size_t fixture, const core::FixtureState& state, Accuracy accuracy,
               core::Layer& out) const override {
     bare_.with_visible(fixture, state, accuracy, [&](const twin::Light& light, const auto& seen) {
       render::colour(view_, light, bare_.twin().gain, &seen, out, bare_.shading(accuracy));
+      if (bounce_map_)
+        bounce_map_->add_colour(bare_.bounced(fixture, state, light, accuracy), light.colour,
+                                bare_.twin().gain, out.diffuse);
     });
   }
   void visibility(std::size_t fixture, const core::FixtureState& state, Accuracy accuracy,
@@ -258,6 +265,7 @@ class WithSkin : public Layers {
   const GeometricLayers& bare_;
   render::View view_;
   core::Picture ambient_;
+  std::optional<render::BounceMap> bounce_map_;
 };
 
 std::unique_ptr<Layers> GeometricLayers::with_skin(core::Rgb diffuse) const {

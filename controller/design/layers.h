@@ -39,7 +39,8 @@ class Layers {
   virtual void visibility(std::size_t fixture, const core::FixtureState& state, Accuracy accuracy,
                           core::Plane& out) const = 0;
   /// The same view of a subject of one diffuse colour all over, gloss as it is; null where the
-  /// twin does not know what is skin and what is light. Borrows this.
+  /// twin does not know what is skin and what is light. Light that surfaces send each other leaves
+  /// them in the mesh's own colours and is seen on that one. Borrows this.
   virtual std::unique_ptr<Layers> with_skin(core::Rgb diffuse) const;
   /// Both in one pass: the same answers, for less than the price of two.
   virtual void luminance_and_visibility(std::size_t fixture, const core::FixtureState& state,

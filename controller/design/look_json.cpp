@@ -144,6 +144,7 @@ class Reader {
     read_judgement(root["placed_judgement"], look.placed_judgement);
     look.instructions = lines_of(root["instructions"]);
     look.warnings = lines_of(root["warnings"]);
+    look.mirrored = root["mirrored"] && root["mirrored"].as<bool>(false);
   }
 
   void read_state(const YAML::Node& node, const studio::Fixture& fixture,
@@ -238,6 +239,7 @@ std::string look_to_json(const studio::Studio& studio, const Look& look) {
   json["components"] = components_to_json(look.components);
   json["instructions"] = look.instructions;
   json["warnings"] = look.warnings;
+  json["mirrored"] = look.mirrored;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

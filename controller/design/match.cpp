@@ -62,6 +62,7 @@ ExampleGoal laid_on(const ExampleGoal& goal, const Alignment& alignment, const F
   pair->ours = ours;
   pair->aligned = laid.exemplar;
   pair->own_frame = seen_through(goal.exemplar, Window{}, kMeasuredSize);
+  pair->by_face = alignment.by == Alignment::By::face;
   if (!alignment.foreground.empty()) {
     pair->foreground = seen_through(alignment.foreground, window, kMeasuredSize);
     pair->behind = core::resized(alignment.foreground, kMeasuredSize);
@@ -90,6 +91,7 @@ double rough_cost(const studio::Studio& studio, const LayersSource& compared, co
   const Layers& layers = compared.at(options.search_size);
   const Sizes rough = prepare(studio, goal, all, layers, layers, layers);
   const Setting setting{studio, layers, all, rough.small.target, rough.small.map, Accuracy::cached};
+  if (all.moving.empty()) return Workspace(setting).solve(all.base, Effort::thorough).cost;
   Options few = options;
   few.trials = std::max<std::uint64_t>(
       1, (options.trials > 0 ? options.trials : default_trials(all.moving.size())) / 4);
@@ -152,8 +154,11 @@ Match matched(const studio::Studio& studio, const LayersSource& twin, const Goal
   if (options.align && std::abs(ours->turn) > kTurned && alignment.by != Alignment::By::nothing) {
     ExampleGoal other = laid_on(*example, alignment, ours->box,
                                 mirrored(window, ours->box, alignment.theirs), options.normalise);
-    if (better_mirrored(studio, twin, laid, other, match.skin.value_or(kDrawnSkin), options, all,
-                        watch)) {
+    const bool reversed =
+        options.mirrored ? *options.mirrored
+                         : better_mirrored(studio, twin, laid, other,
+                                           match.skin.value_or(kDrawnSkin), options, all, watch);
+    if (reversed) {
       laid = std::move(other);
       match.mirrored = true;
       match.words.push_back(

@@ -27,6 +27,9 @@ struct Matched {
   core::Plane foreground;   ///< beside `aligned`: share of the exemplar's subject; empty: unknown
   core::Picture own_frame;  ///< the exemplar's central square as it stands
   core::Plane behind;       ///< beside it: 1 where it shows background; empty: unknown
+  /// The exemplar's face was found, or is known: else it lies on our subject by its outline or as
+  /// it is framed, and what fits there may be anything.
+  bool by_face = true;
 };
 
 inline constexpr int kFaceCells = 16, kBodyCells = 8;
@@ -39,10 +42,15 @@ struct Pattern {
   std::vector<float> wanted;          ///< working scalar
   std::vector<float> pixels;          ///< how many there are in our picture; 0: does not count
   std::vector<std::uint8_t> clipped;  ///< the exemplar's camera clipped: at least `wanted`
+  bool by_face = true;                ///< see Matched
 };
 /// `planes` null: no geometry is known, so every pixel in the face's ellipse counts as face and the
 /// rest as body.
 Pattern pattern_of(const Matched& matched, const core::GeometryPlanes* planes, core::Size size);
+
+/// How much brighter a picture's background is than the exemplar's own, working scalar, mean; 0
+/// where either is not known. `values`: working scalar, of the pattern's size.
+double background_off(const Pattern& pattern, const core::Plane& values);
 
 /// Levels by pattern: Gauss-Newton on the means' L*, from a linear start.
 class PatternLevels : public LevelSolver {

@@ -250,6 +250,7 @@ void Brain::solve_again(double fade_s) {
   DesignTask task = task_of(ask, goal ? std::move(*goal) : GoalReader{});
   if (ask.flat) task.from = flat_look();  // bent again from where the lamps stand now
   keep_motors(task.studio, live_->look.placed.states);
+  task.options.mirrored = live_->look.mirrored;
   again_ = task.board;
   planner_.add(std::move(task), [this, here = here_, board = again_, id = live_->record.id,
                                  fade_s](core::Result<Designed> result) {

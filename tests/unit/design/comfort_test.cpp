@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "controller/design/colours.h"
+#include "controller/studio/load.h"
 #include "tests/support/analytic_layers.h"
+#include "tests/support/fake_world.h"
 #include "tests/support/rigs.h"
 
 namespace chiaro::design {
@@ -115,6 +117,21 @@ TEST_F(ComfortOfALook, ABackgroundThatOutshinesTheFaceIsSaid) {
   EXPECT_NE(words(1).find("background is"), std::string::npos) << words(1);
 }
 
+TEST_F(ComfortOfALook, ABurntBackgroundIsSaidInsteadOfABrightOne) {
+  studio_.fixtures[0] = support::fixed_lamp("wall", studio::Role::background, {0, 0.9, 0.2}, 30000);
+  EXPECT_GT(found(1).burnt_background, 0.05);
+  EXPECT_NE(words(1).find("of the background is burnt out"), std::string::npos) << words(1);
+  EXPECT_EQ(words(1).find("background is 1"), std::string::npos) << words(1);
+}
+
+TEST_F(ComfortOfALook, OneEyeWithoutCatchLightIsSaidAsOne) {
+  Comfort comfort = found(0.3);
+  comfort.left_eye = false;
+  std::string said;
+  for (const std::string& each : comfort_in_words(studio_, rig_, comfort, false)) said += each;
+  EXPECT_NE(said.find("one eye has no catch-light"), std::string::npos) << said;
+}
+
 TEST_F(ComfortOfALook, ALampOnTheCameraShowsInGlassesUntilItIsRaised) {
   const Vec3 camera = studio_.main_camera().at;
   studio_.fixtures[0] =
@@ -132,6 +149,60 @@ TEST_F(ComfortOfALook, ALampOnTheCameraShowsInGlassesUntilItIsRaised) {
   ASSERT_EQ(said.size(), 1u);
   EXPECT_NE(said[0].find("key shows in the glasses: raise it to"), std::string::npos) << said[0];
   EXPECT_TRUE(comfort_in_words(studio_, rig_, comfort, false).empty());
+}
+
+/// The shipped sitter before a wall, traced.
+class ShadowOnTheWall : public testing::Test {
+ protected:
+  ShadowOnTheWall()
+      : world_(clock_, network_, folder_.path()),
+        studio_(studio::load_studio(world_.world.config_folder / "studios/portrait.yaml",
+                                    studio::Folders{world_.world.config_folder})
+                    ->studio) {}
+  /// `wall`: metres behind the sitter; the key alone, placed in degrees.
+  Comfort found(double wall, double azimuth, double elevation, double wall_light = 0) {
+    studio_.background.front().through.y = wall;
+    const auto twin = geometric_layers(studio_, {});
+    rig_ = studio::placed_rig(studio_);
+    for (core::FixtureState& state : rig_.states) state.set(core::Dof::intensity, 0);
+    core::FixtureState& key = rig_.states[*studio_.fixture_index("key")];
+    key.set(core::Dof::azimuth, core::radians(azimuth));
+    key.set(core::Dof::elevation, core::radians(elevation));
+    key.set(core::Dof::intensity, 0.2);
+    rig_.states[*studio_.fixture_index("wall")].set(core::Dof::intensity, wall_light);
+    const Layers& layers = (*twin)->at({64, 64});
+    return comfort_of(studio_, layers, rig_, predicted(studio_, layers, rig_, Accuracy::exact));
+  }
+  support::TemporaryFolder folder_;
+  support::FakeClock clock_;
+  support::FakeNetwork network_;
+  support::FakeWorld world_;
+  studio::Studio studio_;
+  studio::Rig rig_;
+};
+
+TEST_F(ShadowOnTheWall, IsSaidOfTheLampThatThrowsItWithItsRemedy) {
+  const Comfort comfort = found(0.6, -15, 8);
+  ASSERT_EQ(comfort.shadows.size(), 1u);
+  EXPECT_EQ(studio_.fixtures[comfort.shadows.front().fixture].name, "key");
+  EXPECT_GT(comfort.shadows.front().share, 0.05);
+  EXPECT_GT(comfort.shadows.front().stops, 1);
+  std::string said;
+  for (const std::string& each : comfort_in_words(studio_, rig_, comfort, false)) said += each;
+  EXPECT_NE(said.find("key throws the subject's shadow on the background"), std::string::npos)
+      << said;
+  EXPECT_NE(said.find("move the subject further from it"), std::string::npos) << said;
+}
+
+TEST_F(ShadowOnTheWall, OfAHighKeyFarFromTheWallFallsOutsideTheFrame) {
+  EXPECT_TRUE(found(2.0, -50, 50).shadows.empty());
+}
+
+TEST_F(ShadowOnTheWall, IsPalerWhereTheWallHasALightOfItsOwn) {
+  const auto deepest = [](const Comfort& comfort) {
+    return comfort.shadows.empty() ? 0 : comfort.shadows.front().stops;
+  };
+  EXPECT_LT(deepest(found(1.2, -12, 8, 1)), deepest(found(1.2, -12, 8)) - 0.3);
 }
 
 }  // namespace

@@ -79,7 +79,9 @@ class Trial {
     if (!portrait) return portrait.problems();
     const auto found = look(portrait->picture, normal);
     if (!found) return found.problems();
-    const studio::Rig truth = found->mirrored ? mirrored(portrait->truth) : portrait->truth;
+    // The sitter faces the camera, so nothing gives a reason to follow the picture mirrored: where
+    // that is done it counts as the error that it is.
+    const studio::Rig& truth = portrait->truth;
     const std::size_t key = *studio_.fixture_index("key");
     Transferred out;
     out.head = asked.head.name;
