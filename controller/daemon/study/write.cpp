@@ -70,6 +70,7 @@ json record_json(const Findings& findings, const Record& record) {
   json files = json::array();
   for (const Table& table : findings.tables) files.push_back(table.name + ".csv");
   for (const Drawing& each : findings.drawings) files.push_back(each.name + ".svg");
+  for (const Page& each : findings.pages) files.push_back(each.file);
   return {{"study", record.study},
           {"command", record.command},
           {"seed", record.options.seed},
@@ -223,6 +224,7 @@ core::Result<core::Done> write(const std::filesystem::path& folder, const Findin
   };
   for (const Table& table : findings.tables) put(table.name + ".csv", to_csv(table));
   for (const Drawing& each : findings.drawings) put(each.name + ".svg", each.svg);
+  for (const Page& each : findings.pages) put(each.file, each.text);
   put("record.json", record_json(findings, record).dump(2) + "\n");
   if (!problems.empty()) return problems;
   return core::Done{};

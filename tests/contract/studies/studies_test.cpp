@@ -56,6 +56,9 @@ TEST_P(EveryStudy, RunsAtItsSmallestAndWritesWhatItPromises) {
     if (file.ends_with(".svg")) {
       EXPECT_EQ(text.rfind("<svg", 0), 0u) << file;
       EXPECT_EQ(text.find("nan"), std::string::npos) << file;
+    } else if (file.ends_with(".html")) {
+      EXPECT_EQ(text.rfind("<!DOCTYPE html>", 0), 0u) << file;
+      EXPECT_NE(text.find("data:image/jpeg;base64,/9j/"), std::string::npos) << file;
     } else {
       EXPECT_NE(text.find("\r\n"), text.rfind("\r\n")) << file << " has a heading and no row";
     }
