@@ -174,18 +174,19 @@ void Brain::hear(ports::TimePoint now) {
   tracking_.be_modest(modest);
 }
 
+void Brain::adopt(ports::TimePoint now) {
+  if (adopted_) return;
+  if (const auto hand = link_->adopted()) console_->adopt(*hand);
+  adopted_ = true;
+  // A hand that knows no look (or none at all): the one that was live is wanted again.
+  if (live_ && !console_->has_look()) console_->apply(studio_, live_->look.placed, 1.0, now);
+  changed();
+}
+
 void Brain::speak(ports::TimePoint now) {
   if (!adopted_) {
-    if (const auto hand = link_->adopted()) {
-      console_->adopt(*hand);
-      adopted_ = true;
-    } else if (now - started_ < kAdoptionPatience) {
-      return;
-    }
-    adopted_ = true;
-    // A hand that knows no look (or none at all): the one that was live is wanted again.
-    if (live_ && !console_->has_look()) console_->apply(studio_, live_->look.placed, 1.0, now);
-    changed();
+    if (!link_->adopted() && now - started_ < kAdoptionPatience) return;
+    adopt(now);
   }
   if (spoken_ && now - last_word_ < kHeartbeat / 2 && !dirty_) return;
   link_->post(console_->wanted(), now);

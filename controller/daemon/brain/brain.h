@@ -156,6 +156,8 @@ class Brain final : public panel::Brain {
   /// What the lamps are being told, on the standing studio.
   studio::Rig sent_rig() const;
   void hear(ports::TimePoint now);
+  /// Takes over what the hand does before the first word to it, once.
+  void adopt(ports::TimePoint now);
   void speak(ports::TimePoint now);
   void answer_waiting(ports::TimePoint now);
   void tell_progress();

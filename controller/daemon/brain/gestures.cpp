@@ -50,19 +50,19 @@ void Brain::carry_out(const panel::Reload&, const panel::Answer& answer) {
 
 void Brain::carry_out(const panel::MotionStop& stop, const panel::Answer& answer) {
   const ports::TimePoint now = world_.clock.now();
+  adopt(now);  // standstill does not wait for a hand; but what one does already is kept
   waiting_.push_back({console_->motion_stop(stop.on, now), true, now + kDarkPatience, answer});
   store_->note(stop.on ? "motion stopped" : "motion stop released");
   changed();
-  adopted_ = true;  // nor does standstill wait
   speak(now);
 }
 
 void Brain::carry_out(const panel::Blackout& blackout, const panel::Answer& answer) {
   const ports::TimePoint now = world_.clock.now();
+  adopt(now);  // darkness does not wait for a hand; but what one shows already comes back after it
   waiting_.push_back({console_->blackout(blackout.on, now), false, now + kDarkPatience, answer});
   store_->note(blackout.on ? "blackout" : "blackout released");
   changed();
-  adopted_ = true;  // darkness does not wait for adoption
   speak(now);
 }
 

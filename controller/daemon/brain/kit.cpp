@@ -57,6 +57,24 @@ interview::LearntLamp learnt(const panel::LearnLamp& seen) {
   return lamp;
 }
 
+struct Named {
+  interview::LearntLamp lamp;
+  std::string profile;
+};
+/// With its profile, under a name that no other lamp's profile has: "Panel" and "panel!" are two.
+core::Result<Named> with_free_name(interview::LearntLamp lamp, const fs::path& folder) {
+  const std::string stem = lamp.profile;
+  std::error_code ignored;
+  for (int number = 2;; ++number) {
+    auto profile = interview::profile_yaml(lamp);
+    if (!profile) return profile.problems();
+    const fs::path file = folder / (lamp.profile + ".yaml");
+    if (!fs::exists(file, ignored) || read(file) == *profile)
+      return Named{std::move(lamp), std::move(*profile)};
+    lamp.profile = stem + "-" + std::to_string(number);
+  }
+}
+
 /// The lamp's entry in the studio file: patch, and what holds it.
 core::Result<interview::Lamp> entry_of(const panel::LearnLamp& seen, const std::string& profile) {
   const auto place = studio::place_from_words(seen.place);
@@ -96,35 +114,38 @@ void Brain::carry_out(const panel::TrySlots& slots, const panel::Answer& answer)
 }
 
 void Brain::carry_out(const panel::LearnLamp& seen, const panel::Answer& answer) {
-  const interview::LearntLamp lamp = learnt(seen);
-  const auto profile = interview::profile_yaml(lamp);
-  if (!profile) return answer({refusal_of(profile.problems())});
+  const fs::path folder = studio_.file.parent_path() / "fixtures";
+  const auto named = with_free_name(learnt(seen), folder);
+  if (!named) return answer({refusal_of(named.problems())});
+  const auto& [lamp, profile] = *named;
   const auto entry = entry_of(seen, lamp.profile);
   if (!entry) return answer({refusal_of(entry.problems())});
   const std::string lines =
       interview::lamp_yaml(*entry, design::estimated_aim(studio_), std::nullopt);
-  const fs::path file = studio_.file.parent_path() / "fixtures" / (lamp.profile + ".yaml");
-  Json json = {{"profile", lamp.profile},  {"profile_file", file.string()},
-               {"profile_yaml", *profile}, {"studio_file", studio_.file.string()},
-               {"studio_lines", lines},    {"added", seen.add}};
-  if (!seen.add) return answer({{}, 200, json.dump()});
+  const fs::path file = folder / (lamp.profile + ".yaml");
+  const Json json = {{"profile", lamp.profile}, {"profile_file", file.string()},
+                     {"profile_yaml", profile}, {"studio_file", studio_.file.string()},
+                     {"studio_lines", lines},   {"added", seen.add}};
+  const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  if (!seen.add) return answer({{}, 200, text});
   const auto changed_file = interview::with_fixture(read(studio_.file), lines);
   if (!changed_file) return answer({refusal_of(changed_file.problems())});
-  if (auto written = write(file, *profile); !written)
+  std::error_code ignored;
+  const bool was_there = fs::exists(file, ignored);  // the same lamp, learned before
+  if (auto written = write(file, profile); !written)
     return answer({refusal_of(written.problems(), 409)});
   // The whole studio is read with it before a byte of its file changes.
   const auto loaded =
       studio::parse_studio(*changed_file, studio_.file.parent_path(), {world_.config_folder});
-  std::error_code ignored;
   if (!loaded) {
-    fs::remove(file, ignored);
+    if (!was_there) fs::remove(file, ignored);
     return answer({refusal_of(loaded.problems())});
   }
   if (auto written = write(studio_.file, *changed_file); !written)
     return answer({refusal_of(written.problems(), 409)});
   store_->note("learned " + seen.name + ", " + lamp.profile);
   carry_out(panel::TrySlots{}, [](const panel::Outcome&) {});
-  carry_out(panel::Reload{}, [answer, text = json.dump()](const panel::Outcome& reloaded) {
+  carry_out(panel::Reload{}, [answer, text](const panel::Outcome& reloaded) {
     answer(reloaded.refused ? reloaded : panel::Outcome{{}, 201, text});
   });
 }

@@ -84,6 +84,7 @@ void Brain::carry_out(const panel::Measured& measured, const panel::Answer& answ
   if (auto kept = keep_placements(); !kept) return answer({refusal_of(kept.problems(), 500)});
   store_->note(output ? fmt::format("{}: output measured, {:.0f} cd", fixture.name, output->value)
                       : fixture.name + ": output as its data sheet says");
+  ++studio_turn_;  // an older preparation in the queue is not the one to wait for
   prepare_twin();
   solve_again(kSolveAgainFade);
   changed();

@@ -108,7 +108,7 @@ std::string Placements::to_json(const studio::Studio& studio) const {
     }
     json[studio.fixtures[i].name] = entry;
   }
-  return json.dump();
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 studio::Studio Placements::placed_studio(const studio::Studio& studio) const {

@@ -186,7 +186,7 @@ std::optional<panel::LookView> Brain::live_view(const studio::Rig& rig) const {
   view.verdict_when_placed = design::name_of(look.placed_judgement.verdict);
   view.remedy = look.placed_judgement.remedy;
   if (const auto ratio = design::key_fill_ratio(standing(), look.placed))
-    view.ratio = core::ratio_in_words(*ratio);
+    view.ratio = core::ratio_in_words(*ratio) + (*ratio < 0.9 ? ", the fill is brighter" : "");
   if (const double lux = lux_on_dome(standing(), rig, *placements_); lux >= kDarkLux)
     view.light = core::illuminance_in_words(core::Lux{lux});
   const panel::StartDesign ask = asked_from_json(live_->record.request, live_->record.reference);

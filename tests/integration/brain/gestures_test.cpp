@@ -194,6 +194,24 @@ TEST_F(GesturesTest, TriedSlotsAreShownUntilTheyFall) {
   EXPECT_TRUE(brain_->state().tried.slots.empty());
 }
 
+TEST_F(GesturesTest, ALampOfAlmostTheSameNameGetsAProfileOfItsOwn) {
+  open();
+  panel::LearnLamp lamp;
+  lamp.name = "Panel";
+  lamp.address = 101;
+  lamp.slots = {{"dimmer", 255}};
+  lamp.add = true;
+  ASSERT_FALSE(perform(lamp).refused);
+  lamp.name = "PANEL";
+  lamp.address = 111;
+  lamp.slots = {{"dimmer", 255}, {"cct", 255}};
+  const auto second = perform(lamp);
+  ASSERT_FALSE(second.refused) << second.refused->what;
+  EXPECT_EQ(Json::parse(second.json).at("profile"), "own/panel-2");
+  EXPECT_EQ(brain_->state().fixtures[2].patch->slots, 1) << "the first keeps its profile";
+  EXPECT_EQ(brain_->state().fixtures[3].patch->slots, 2);
+}
+
 TEST_F(GesturesTest, ALearnedLampIsInTheStudioAtOnce) {
   open();
   panel::LearnLamp lamp;
