@@ -64,6 +64,11 @@ class OutputPort {
   virtual core::Result<core::Done> open() = 0;
   /// Sends the frame; a failure is counted, never thrown, and the next send tries again.
   virtual void send(const DmxFrame& frame, TimePoint now) = 0;
+  /// The same for a loop that sends many ports in one go: the frame leaves now, or together with
+  /// those of other ports at the next `flush` of any of them, before which the port must not be
+  /// opened, released or ended. `report` tells of it after that.
+  virtual void send_later(const DmxFrame& frame, TimePoint now) { send(frame, now); }
+  virtual void flush() {}
   /// Says goodbye where the protocol knows how (sACN: three terminated packets) and closes.
   virtual void release(TimePoint now) = 0;
   virtual PortReport report() const = 0;

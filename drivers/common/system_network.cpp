@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <arpa/inet.h>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <ifaddrs.h>
@@ -41,6 +42,14 @@ class SystemDatagram final : public ports::DatagramSocket {
     return sent == static_cast<ssize_t>(datagram.size());
   }
 
+  void send_all(std::span<ports::Outgoing> datagrams) override {
+    while (!datagrams.empty()) {
+      const auto taken = std::min(datagrams.size(), kTogether);
+      send_together(datagrams.first(taken));
+      datagrams = datagrams.subspan(taken);
+    }
+  }
+
   std::optional<std::size_t> receive(std::span<std::uint8_t> into, ports::Endpoint* from) override {
     sockaddr_in address{};
     socklen_t length = sizeof address;
@@ -71,6 +80,32 @@ class SystemDatagram final : public ports::DatagramSocket {
   int descriptor() const override { return descriptor_; }
 
  private:
+  static constexpr std::size_t kTogether = 64;
+
+  void send_together(std::span<ports::Outgoing> datagrams) {
+    std::array<sockaddr_in, kTogether> to;
+    std::array<iovec, kTogether> bytes;
+    std::array<mmsghdr, kTogether> messages;
+    for (std::size_t i = 0; i < datagrams.size(); ++i) {
+      to[i] = address_of(*datagrams[i].to);
+      const auto& datagram = datagrams[i].datagram;
+      bytes[i] = {const_cast<std::uint8_t*>(datagram.data()), datagram.size()};
+      messages[i] = {};
+      messages[i].msg_hdr.msg_name = &to[i];
+      messages[i].msg_hdr.msg_namelen = sizeof to[i];
+      messages[i].msg_hdr.msg_iov = &bytes[i];
+      messages[i].msg_hdr.msg_iovlen = 1;
+    }
+    for (std::size_t at = 0; at < datagrams.size();) {
+      const int sent =
+          ::sendmmsg(descriptor_, &messages[at], static_cast<unsigned>(datagrams.size() - at),
+                     MSG_DONTWAIT | MSG_NOSIGNAL);
+      for (int i = 0; i < sent; ++i, ++at)
+        datagrams[at].sent = messages[at].msg_len == datagrams[at].datagram.size();
+      if (sent <= 0) datagrams[at++].sent = false;  // the others may have a way
+    }
+  }
+
   int descriptor_;
   unsigned interface_index_;
   std::string interface_;

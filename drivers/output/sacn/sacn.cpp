@@ -3,6 +3,7 @@
 // first universe of a source also tells the network which universes there are; the last one ends
 // each frame with a synchronisation packet where that is asked for.
 #include "drivers/common/quiet.h"
+#include "drivers/common/sacn_batch.h"
 #include "drivers/common/sacn_packet.h"
 #include "drivers/registry.h"
 
@@ -21,11 +22,13 @@ Stream stream_of(const OutputSettings& settings) {
           settings.universe, settings.sync};
 }
 
-class SacnPort final : public ports::OutputPort {
+class SacnPort final : public ports::OutputPort, private Batch::Sender {
  public:
-  SacnPort(const OutputSettings& settings, ports::Network& network)
+  SacnPort(const OutputSettings& settings, Surroundings& around)
       : settings_(settings),
-        network_(network),
+        network_(around.network),
+        batch_(
+            around.shared.get<Batch>(settings.interface, [] { return std::make_shared<Batch>(); })),
         to_{settings.unicast.empty() ? multicast_group(settings.universe) : settings.unicast,
             kPort},
         sync_to_{settings.unicast.empty() ? multicast_group(settings.sync) : settings.unicast,
@@ -62,10 +65,19 @@ class SacnPort final : public ports::OutputPort {
 
   void send(const ports::DmxFrame& frame, ports::TimePoint now) override {
     if (!socket_) return;
-    if (quiet_.must_send(frame, now)) send(frame.levels, 0);
+    send_later(frame, now);
+    flush();
+  }
+
+  void send_later(const ports::DmxFrame& frame, ports::TimePoint now) override {
+    if (!socket_) return;
+    if (quiet_.must_send(frame, now)) {
+      set_frame(packet_, ++sequence_, 0, frame.levels);
+      batch_->add(*socket_, to_, packet_, this);
+    }
     if (ends_the_frame_) {
       ++sync_[sync_at::sequence];
-      socket_->send(sync_to_, sync_);
+      batch_->add(*socket_, sync_to_, sync_, nullptr);
     }
     if (speaks_for_all_ && now >= next_discovery_) {
       next_discovery_ = now + kDiscoveryPeriod;
@@ -73,11 +85,16 @@ class SacnPort final : public ports::OutputPort {
     }
   }
 
+  void flush() override { batch_->flush(); }
+
   /// E1.31 6.2.6: three packets with Stream_Terminated, so that a lost one does not matter.
   void release(ports::TimePoint) override {
     std::array<std::uint8_t, kSlots> levels{};
     std::copy_n(packet_.begin() + at::levels, kSlots, levels.begin());
-    for (int i = 0; i < 3 && socket_; ++i) send(levels, kTerminated);
+    for (int i = 0; i < 3 && socket_; ++i) {
+      set_frame(packet_, ++sequence_, kTerminated, levels);
+      judge(socket_->send(to_, packet_));
+    }
     socket_.reset();
     report_.health = ports::PortHealth::closed;
   }
@@ -86,9 +103,8 @@ class SacnPort final : public ports::OutputPort {
   bool physical() const override { return true; }
 
  private:
-  void send(std::span<const std::uint8_t, kSlots> levels, std::uint8_t options) {
-    set_frame(packet_, ++sequence_, options, levels);
-    if (!socket_->send(to_, packet_)) {
+  void judge(bool sent) override {
+    if (!sent) {
       ++report_.frames_failed;
       report_.health = ports::PortHealth::lost;
       return;
@@ -100,6 +116,7 @@ class SacnPort final : public ports::OutputPort {
 
   const OutputSettings settings_;
   ports::Network& network_;
+  const std::shared_ptr<Batch> batch_;
   const ports::Endpoint to_, sync_to_, discovery_to_{multicast_group(kDiscoveryUniverse), kPort};
   Packet packet_;
   SyncPacket sync_;
@@ -116,7 +133,7 @@ class SacnPort final : public ports::OutputPort {
 
 std::unique_ptr<ports::OutputPort> make(const OutputSettings&, Surroundings&);
 std::unique_ptr<ports::OutputPort> make(const OutputSettings& settings, Surroundings& around) {
-  return std::make_unique<SacnPort>(settings, around.network);
+  return std::make_unique<SacnPort>(settings, around);
 }
 
 }  // namespace chiaro::drivers::sacn
