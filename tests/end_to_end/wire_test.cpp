@@ -53,8 +53,8 @@ int sixteen(const std::vector<int>& levels, std::size_t address) {
 
 /// Whether the wire carries what look.json promises for the places that it wants. The bytes are
 /// worked out by hand from config/fixtures: tunable-panel in 4ch-16bit has a linear 16-bit level
-/// and a 16-bit CCT from 2000 to 20000 K; the back light one linear 8-bit level; the wall's RGBW has
-/// no dimmer of its own, so that each emitter carries the level.
+/// and a 16-bit CCT from 2000 to 20000 K; the back light one linear 8-bit level; the wall's RGBW
+/// has no dimmer of its own, so that each emitter carries the level.
 bool carries(const std::vector<int>& levels, const Json& look) {
   if (levels.size() != 512) return false;
   bool all = true;
@@ -142,6 +142,32 @@ TEST_F(Wire, KillingTheBrainLeavesTheSequenceUnbrokenAndItReturnsWithTheSameLook
   }
   for (std::size_t i = heard_before; i < heard.size(); ++i)
     ASSERT_EQ(heard[i]["levels"].get<std::vector<int>>(), levels) << "packet " << i;
+}
+
+TEST_F(Wire, ABrainThatIsStoppedAndContinuedChangesNothing) {
+  apply(design());
+  ASSERT_TRUE(eventually([&] {
+    const auto now = state();
+    return now.is_object() && now["instructions"].empty() && now["look"].is_object() &&
+           now["look"].value("fade", 0.0) >= 1;
+  })) << demo_->err();
+  const auto levels = last_levels();
+  const auto before = packets(*receiver_).size();
+  const pid_t brain = child_of(demo_->pid(), "chiarod");
+  ASSERT_GT(brain, 0);
+  ASSERT_EQ(::kill(brain, SIGSTOP), 0);
+  // Longer than the second after which the hand counts it as silent.
+  ASSERT_TRUE(eventually([&] { return packets(*receiver_).size() > before + 100; }));
+  ASSERT_EQ(::kill(brain, SIGCONT), 0);
+  ASSERT_TRUE(eventually([&] { return brain_answers(); }));
+  const auto continued = packets(*receiver_).size();
+  ASSERT_TRUE(eventually([&] { return packets(*receiver_).size() > continued + 60; }));
+  const auto heard = packets(*receiver_);
+  for (std::size_t i = before; i < heard.size(); ++i) {
+    ASSERT_TRUE(heard[i].contains("sequence")) << heard[i].dump();
+    EXPECT_EQ(heard[i]["sequence"].get<int>(), (heard[i - 1]["sequence"].get<int>() + 1) % 256);
+    ASSERT_EQ(heard[i]["levels"].get<std::vector<int>>(), levels) << "packet " << i;
+  }
 }
 
 TEST_F(Wire, BlackoutWorksWithTheBrainDead) {
