@@ -3,6 +3,7 @@
 // itself. It lives in the hand, so a show goes on when the brain does not.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,6 +26,7 @@ struct Cue {
 
 /// Ascending by number. Made off the loop.
 struct CueList {
+  std::uint64_t studio = 0;  ///< the fingerprint of the one whose lamps its indices mean
   std::vector<Cue> cues;
   /// Puts a cue in its place, or in the place of the one with its number.
   void put(Cue cue);

@@ -43,6 +43,8 @@ void Governor::State::add(const Lamp& lamp, const FixtureState* held) {
   own.push_back(0);
   marks.push_back(0);
   asked.push_back(0);
+  draws.push_back(0);
+  bound.push_back(0);
   slewed.push_back(0);  // set by the first step
   parked.emplace_back();
   is_parked.push_back(0);

@@ -50,8 +50,10 @@ struct Governor::State {
   // By lamp.
   std::vector<Marks> brains, own, marks;  ///< marks: both, as of the last change
   bool any_solo = false;
-  std::vector<double> asked;   ///< intensity before power, limits and blackout
-  std::vector<double> slewed;  ///< intensity after slew, before park and blackout
+  std::vector<double> asked;        ///< intensity before power, limits and blackout
+  std::vector<double> draws;        ///< intensity as its circuit will feel it
+  std::vector<std::uint8_t> bound;  ///< that, whatever the circuit's factor
+  std::vector<double> slewed;       ///< intensity after slew, before park and blackout
   std::vector<core::FixtureState> parked;
   std::vector<std::uint8_t> is_parked, woken;
   std::vector<ports::TimePoint> waits_since;  ///< in the dark for its axes; zero: it does not
@@ -77,6 +79,7 @@ struct Governor::State {
   bool wait_in_the_dark(std::size_t i, bool there, ports::TimePoint now);
   double marked_and_mastered(std::size_t i) const;
   double master(const Lamp& lamp) const;
+  void weigh(std::size_t i);
   bool finish(std::size_t i, double elapsed);
   void open_white(std::size_t i);
   bool limit(std::size_t i, double wanted, double elapsed);

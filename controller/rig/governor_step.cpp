@@ -167,6 +167,21 @@ void Governor::State::open_white(std::size_t i) {
   }
 }
 
+/// What the lamp's circuit must bear: nothing in a blackout; what it is parked at, or has not come
+/// down from yet, whatever the circuit says; else what is asked of it.
+void Governor::State::weigh(std::size_t i) {
+  const core::Range range = lamps[i].range[kIntensity];
+  draws[i] = 0;
+  bound[i] = 1;
+  if (!lamps[i].can(kIntensity) || (blackout && !lamps[i].ignores_blackout)) return;
+  draws[i] = is_parked[i] != 0 ? range.clamp(parked[i].get(Dof::intensity)) : slewed[i];
+  if (is_parked[i] != 0) return;
+  const double target = range.clamp(asked[i] * power.scale_for(i));
+  if (lamps[i].slew_per_s > 0 && stepped && slewed[i] > target) return;
+  draws[i] = range.clamp(asked[i]);
+  bound[i] = 0;
+}
+
 /// From the level asked for to what leaves. True while it is on its way.
 bool Governor::State::finish(std::size_t i, double elapsed) {
   const Lamp& lamp = lamps[i];
@@ -175,7 +190,7 @@ bool Governor::State::finish(std::size_t i, double elapsed) {
   constexpr auto kFollowed =
       static_cast<Limited>(Limited{} | Limit::flash | Limit::motion | Limit::person);
   limited[i] = static_cast<Limited>(limited[i] & kFollowed);
-  const double scale = power.scale_for(i);
+  const double scale = is_parked[i] != 0 ? 1 : power.scale_for(i);
   if (scale < 1) limited[i] = limited[i] | Limit::power;
   const double wanted = asked[i] * scale;
   const bool busy = limit(i, wanted, elapsed);
@@ -206,8 +221,9 @@ const AllowedLevels& Governor::step(TimePoint now) {
     if (awake[i] == 0) continue;
     if (s.follow(i, now, elapsed)) awake[i] |= kBusy;
     s.asked[i] = s.marked_and_mastered(i);
+    s.weigh(i);
   }
-  if (s.power.weigh(s.asked))
+  if (s.power.weigh(s.draws, s.bound))
     for (auto& each : awake) each |= kAwake;
   s.levels.changed_.clear();
   for (std::size_t i = 0; i < s.lamps.size(); ++i) {

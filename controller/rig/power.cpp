@@ -15,17 +15,19 @@ PowerBudget::PowerBudget(const studio::Studio& studio)
   }
 }
 
-bool PowerBudget::weigh(std::span<const double> levels) {
+bool PowerBudget::weigh(std::span<const double> levels, std::span<const std::uint8_t> fixed) {
   bool changed = false;
   for (std::size_t c = 0; c < fuses_.size(); ++c) {
     const Fuse& fuse = fuses_[c];
-    double asked = 0;
+    double asked = 0, taken = 0;
     for (const auto& load : fuse.loads)
-      asked += load.watts * std::pow(std::clamp(levels[load.fixture], 0.0, 1.0), fuse.law);
+      (fixed[load.fixture] != 0 ? taken : asked) +=
+          load.watts * std::pow(std::clamp(levels[load.fixture], 0.0, 1.0), fuse.law);
+    const double left = std::max(0.0, fuse.limit - taken);
     // All levels times k draw k^law of it.
-    const double scale = asked > fuse.limit ? std::pow(fuse.limit / asked, 1 / fuse.law) : 1;
+    const double scale = asked > left ? std::pow(left / asked, 1 / fuse.law) : 1;
     changed |= scale != now_[c].scale;
-    now_[c] = {std::min(asked, fuse.limit), scale};
+    now_[c] = {taken + std::min(asked, left), scale};
   }
   return changed;
 }

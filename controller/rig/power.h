@@ -3,6 +3,7 @@
 // held down by one factor of light, so that the picture keeps its ratios.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -19,9 +20,10 @@ inline constexpr double kFilament = 1.6 / 3.4;
 class PowerBudget {
  public:
   explicit PowerBudget(const studio::Studio& studio);
-  /// The factor for each circuit if its lamps were sent `levels` (by fixture, linear light). True
-  /// when a factor is another than before.
-  bool weigh(std::span<const double> levels);
+  /// The factor for each circuit if its lamps were sent `levels` (by fixture, linear light). Lamps
+  /// that are `fixed` take what they take, and the others share the rest. True when a factor is
+  /// another than before.
+  bool weigh(std::span<const double> levels, std::span<const std::uint8_t> fixed);
   /// 1 for a lamp on no circuit.
   double scale_for(std::size_t fixture) const {
     const int c = circuit_of_[fixture];

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "controller/daemon/output/state_json.h"
+
 namespace chiaro::daemon {
 
 using Json = nlohmann::json;
@@ -18,7 +20,7 @@ std::string refusal(const core::Problems& problems) {
                     {"column", p.where.column},
                     {"what", p.what},
                     {"remedy", p.remedy}});
-  return Json{{"problems", list}}.dump();
+  return text_of(Json{{"problems", list}});
 }
 
 std::string refusal(const std::string& what, const std::string& remedy) {
@@ -28,6 +30,12 @@ std::string refusal(const std::string& what, const std::string& remedy) {
 std::string not_in_time() {
   return refusal("the output loop did not act within a second",
                  "look at `chiaro-output`'s messages");
+}
+
+std::string cut(const std::string& text, std::size_t most) {
+  if (text.size() <= most) return text;
+  while (most > 0 && (static_cast<unsigned char>(text[most]) & 0xc0u) == 0x80u) --most;
+  return text.substr(0, most);
 }
 
 std::string first_of(std::string& words) {

@@ -20,6 +20,8 @@ std::string refusal(const core::Problems& problems);
 std::string refusal(const std::string& what, const std::string& remedy);
 std::string not_in_time();
 
+/// At most so many bytes of it, never half a letter.
+std::string cut(const std::string& text, std::size_t most);
 /// Takes the first word off `words`.
 std::string first_of(std::string& words);
 /// A finite number that is not negative, and nothing else.

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "controller/daemon/output/answer_words.h"
+#include "controller/daemon/output/state_json.h"
 
 namespace chiaro::daemon {
 namespace {
@@ -77,26 +78,27 @@ std::string Answers::to(const std::string& line) {
   if (line == "marks off") return unmark();
   if (line == "reload") {
     const auto outcome = housekeeper_.reload_now(std::chrono::seconds(8));
-    return outcome ? Json{{"reload", true}}.dump() : refusal(outcome.problems());
+    return outcome ? text_of(Json{{"reload", true}}) : refusal(outcome.problems());
   }
   if (line == "release") {
     release_ = true;
-    return Json{{"release", true}}.dump();
+    return text_of(Json{{"release", true}});
   }
   if (verb == "motion") return motion(rest);
   if (verb == "mark") return mark(rest);
   if (verb == "level") return level(rest);
   if (verb == "master") return master(rest);
   if (line == "blind on" || line == "blind off") return blind(line == "blind on");
+  if (verb == "record") return tape(rest);
   if (verb == "cue") return cue(rest);
-  return refusal("unknown request '" + line.substr(0, 40) + "'",
-                 "known: blackout, motion, mark, marks, level, master, blind, cue, status, reload, "
-                 "release");
+  return refusal("unknown request '" + cut(line, 40) + "'",
+                 "known: blackout, motion, mark, marks, level, master, blind, cue, record, "
+                 "status, reload, release");
 }
 
 std::string Answers::blackout(bool on) {
   const std::uint64_t wish = hand_.wish_blackout(on);
-  if (wait([&] { return hand_.taken(wish); })) return Json{{"blackout", on}}.dump();
+  if (wait([&] { return hand_.taken(wish); })) return text_of(Json{{"blackout", on}});
   return refusal("the output loop did not take the blackout within a second",
                  "switch the lamps' mains off if they must go dark now");
 }
@@ -127,7 +129,7 @@ std::string Answers::home(const std::string& lamp) {
   wish.kind = Wish::Kind::home;
   wish.fixture = static_cast<std::uint32_t>(*index);
   wish.studio = studio.fingerprint;
-  return done(wish) ? Json{{"home", lamp}}.dump() : not_in_time();
+  return done(wish) ? text_of(Json{{"home", lamp}}) : not_in_time();
 }
 
 std::string Answers::motion(const std::string& word) {
@@ -145,10 +147,34 @@ std::string Answers::motion(const std::string& word) {
   const rig::Sent sent = housekeeper_.newest_report();
   if (word == "arm" && sent.motion_stop.on)
     return refusal("motion is stopped, so it cannot be armed", "`chiaro motion release` first");
-  return Json{{"stopped", sent.motion_stop.on},
-              {"armed", sent.motion_armed.on},
-              {"axes_waiting", sent.axes_waiting}}
-      .dump();
+  return text_of(Json{{"stopped", sent.motion_stop.on},
+                      {"armed", sent.motion_armed.on},
+                      {"axes_waiting", sent.axes_waiting}});
+}
+
+std::string Answers::tape(const std::string& words) {
+  std::string rest = words;
+  const std::string verb = first_of(rest);
+  Recorder& recorder = housekeeper_.recorder();
+  Recorder::State state = recorder.state();
+  if (verb == "start" && std::filesystem::path(rest).is_absolute()) {
+    if (const auto started = recorder.start(rest, housekeeper_.studio_now()); !started)
+      return refusal(started.problems());
+    state = recorder.state();
+  } else if (words == "stop") {
+    const auto stopped = recorder.stop();
+    if (!stopped) return refusal(stopped.problems());
+    state = *stopped;
+  } else if (words != "status") {
+    return refusal("unknown request 'record " + cut(words, 60) + "'",
+                   "record start FILE with its whole path, record stop, record status");
+  }
+  return text_of(Json{{"recording", state.on},
+                      {"file", state.file},
+                      {"seconds", state.seconds},
+                      {"ticks", state.ticks},
+                      {"bytes", state.bytes},
+                      {"lost", state.lost}});
 }
 
 std::string Answers::status() const {
@@ -182,7 +208,7 @@ std::string Answers::status() const {
                                 {"scale", sent.circuits[i].scale}});
   for (const auto& port : sent.ports) json["ports"].push_back(port_json(port));
   for (const auto& axis : housekeeper_.axes_now()) json["axes"].push_back(axis_json(axis, studio));
-  return json.dump();
+  return text_of(json);
 }
 
 }  // namespace chiaro::daemon

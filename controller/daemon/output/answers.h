@@ -7,6 +7,7 @@
 //   mark KIND on|off LAMP               marks off
 //   level PERCENT|release LAMP          master NAME PERCENT          blind on|off
 //   cue go|back|off|list    cue to N    cue remove N
+//   record start FILE|stop|status
 //   cue record N [fade S] [follow S] [name WORDS]
 //
 // KIND: highlight, flash, solo, park, move-in-black. LAMP: a fixture's name, or * for all. N: a
@@ -23,7 +24,7 @@
 
 namespace chiaro::daemon {
 
-/// One thread (the socket's), which waits for the loop where it must.
+/// One thread at a time, which waits for the loop where it must; blackouts come from any thread.
 class Answers {
  public:
   /// `release` is set when somebody asks the hand to say goodbye and end.
@@ -49,6 +50,7 @@ class Answers {
   std::string level(const std::string& words);
   std::string master(const std::string& words);
   std::string blind(bool on);
+  std::string tape(const std::string& words);
   std::string wish_for(const std::string& lamp, Wish wish);
   std::string cue(const std::string& words);
   std::string cue_list() const;

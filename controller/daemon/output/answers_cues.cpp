@@ -6,6 +6,7 @@
 #include "controller/daemon/output/answer_words.h"
 #include "controller/daemon/output/answers.h"
 #include "controller/daemon/output/cue_book.h"
+#include "controller/daemon/output/state_json.h"
 
 namespace chiaro::daemon {
 namespace {
@@ -27,7 +28,7 @@ std::string Answers::cue(const std::string& words) {
   if (number && verb == "remove" && rest.empty()) return remove(*number);
   if (number && verb == "record") return record(*number, rest);
   return refusal(
-      "unknown cue request '" + words.substr(0, 60) + "'",
+      "unknown cue request '" + cut(words, 60) + "'",
       "known: go, back, off, list, to N, remove N, record N [fade S] [follow S] [name …]");
 }
 
@@ -39,7 +40,7 @@ std::string Answers::cue_now(const rig::Sent& sent) const {
   if (sent.cue.playing >= 0) json["playing"] = sent.cue.number;
   for (const rig::Cue& cue : list->cues)
     if (sent.cue.playing >= 0 && cue.number == sent.cue.number) json["name"] = cue.name;
-  return json.dump();
+  return text_of(json);
 }
 
 std::string Answers::cue_moves(Wish::Kind kind, double number) {
@@ -75,7 +76,7 @@ std::string Answers::cue_list() const {
     json["playing"] = sent.cue.playing >= 0 && sent.cue.number == cue.number;
     cues.push_back(json);
   }
-  return Json{{"cues", cues}}.dump();
+  return text_of(Json{{"cues", cues}});
 }
 
 std::string Answers::record(double number, const std::string& words) {
@@ -86,7 +87,7 @@ std::string Answers::record(double number, const std::string& words) {
   while (!rest.empty()) {
     const std::string key = first_of(rest);
     if (key == "name") {
-      cue.name = std::exchange(rest, "").substr(0, 80);
+      cue.name = cut(std::exchange(rest, ""), 80);
       break;
     }
     const auto seconds = number_in(first_of(rest));
@@ -118,9 +119,12 @@ std::string Answers::keep(std::unique_ptr<rig::CueList> list) {
   const auto written = write_cues(state_folder_, housekeeper_.studio_now(), *list);
   if (!written) return refusal(written.problems());
   list->look_ahead();
+  const rig::CueList* const offered = list.get();
   hand_.offer_cues(std::move(list));
   std::unique_ptr<rig::CueList> old;
   if (!wait([&] { return (old = hand_.collect_cues()) != nullptr; })) return not_in_time();
+  if (old.get() == offered)
+    return refusal("the studio file has just been read again", "it is kept; ask once more");
   return cue_list();
 }
 

@@ -5,6 +5,7 @@
 
 #include "controller/daemon/output/answer_words.h"
 #include "controller/daemon/output/answers.h"
+#include "controller/daemon/output/state_json.h"
 
 namespace chiaro::daemon {
 namespace {
@@ -47,14 +48,14 @@ std::string Answers::mark(const std::string& words) {
   const auto kind = mark_named(first_of(lamp));
   const std::string on = first_of(lamp);
   if (!kind || (on != "on" && on != "off") || lamp.empty())
-    return refusal("unknown mark '" + words.substr(0, 60) + "'",
+    return refusal("unknown mark '" + cut(words, 60) + "'",
                    "mark highlight|flash|solo|park|move-in-black on|off LAMP");
   Wish wish;
   wish.kind = Wish::Kind::mark;
   wish.mark = *kind;
   wish.on = on == "on";
   if (const std::string refused = wish_for(lamp, wish); !refused.empty()) return refused;
-  return Json{{"mark", rig::name_of(*kind)}, {"on", wish.on}, {"fixture", lamp}}.dump();
+  return text_of(Json{{"mark", rig::name_of(*kind)}, {"on", wish.on}, {"fixture", lamp}});
 }
 
 std::string Answers::unmark() {
@@ -64,7 +65,7 @@ std::string Answers::unmark() {
     wish.mark = mark;
     if (const std::string refused = wish_for("*", wish); !refused.empty()) return refused;
   }
-  return Json{{"marks", false}}.dump();
+  return text_of(Json{{"marks", false}});
 }
 
 std::string Answers::level(const std::string& words) {
@@ -73,7 +74,7 @@ std::string Answers::level(const std::string& words) {
   const auto percent = number_in(value);
   const bool release = value == "release";
   if (lamp.empty() || (!release && (!percent || *percent > 100)))
-    return refusal("unknown level '" + words.substr(0, 60) + "'",
+    return refusal("unknown level '" + cut(words, 60) + "'",
                    "level PERCENT LAMP, 0 to 100, or level release LAMP");
   Wish wish;
   wish.kind = release ? Wish::Kind::release : Wish::Kind::level;
@@ -81,7 +82,7 @@ std::string Answers::level(const std::string& words) {
   if (const std::string refused = wish_for(lamp, wish); !refused.empty()) return refused;
   Json json{{"fixture", lamp}, {"released", release}};
   if (!release) json["level"] = wish.number;
-  return json.dump();
+  return text_of(json);
 }
 
 std::string Answers::master(const std::string& words) {
@@ -89,14 +90,14 @@ std::string Answers::master(const std::string& words) {
   const auto which = master_named(first_of(rest));
   const auto percent = number_in(rest);
   if (!which || !percent || *percent > 100)
-    return refusal("unknown master '" + words.substr(0, 60) + "'",
+    return refusal("unknown master '" + cut(words, 60) + "'",
                    "master grand|key|fill|back|background PERCENT, 0 to 100");
   Wish wish;
   wish.kind = Wish::Kind::master;
   wish.master = *which;
   wish.number = *percent / 100;
   if (!done(wish)) return not_in_time();
-  return Json{{"master", rig::name_of(*which)}, {"level", wish.number}}.dump();
+  return text_of(Json{{"master", rig::name_of(*which)}, {"level", wish.number}});
 }
 
 std::string Answers::blind(bool on) {
@@ -104,7 +105,7 @@ std::string Answers::blind(bool on) {
   wish.kind = Wish::Kind::blind;
   wish.on = on;
   if (!done(wish)) return not_in_time();
-  return Json{{"blind", on}}.dump();
+  return text_of(Json{{"blind", on}});
 }
 
 }  // namespace chiaro::daemon

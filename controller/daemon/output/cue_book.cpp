@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "controller/daemon/output/cue_book.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -16,6 +17,8 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr int kCueGenerations = 5;
+/// A person may have written the file.
+constexpr double kLongestTime = 24 * 3600, kMostNumber = 1e6;
 
 double number_in(const Json& json, const char* name, double otherwise) {
   const Json value = json.value(name, Json());
@@ -29,10 +32,11 @@ std::string text_in(const Json& json, const char* name) {
 
 rig::Cue cue_of(const Json& json, const studio::Studio& studio) {
   rig::Cue cue;
-  cue.number = number_in(json, "number", 1);
+  cue.number = std::clamp(number_in(json, "number", 1), 0.0, kMostNumber);
   cue.name = text_in(json, "name");
-  cue.state.fade_s = number_in(json, "fade_s", 0);
-  if (const double follow = number_in(json, "follow_s", -1); follow >= 0) cue.follow_s = follow;
+  cue.state.fade_s = std::clamp(number_in(json, "fade_s", 0), 0.0, kLongestTime);
+  if (const double follow = number_in(json, "follow_s", -1); follow >= 0)
+    cue.follow_s = std::min(follow, kLongestTime);
   cue.state.fixtures = states_of(studio, json.value("fixtures", Json::object()));
   return cue;
 }
@@ -57,6 +61,7 @@ std::filesystem::path cue_file(const std::filesystem::path& state_folder,
 std::unique_ptr<rig::CueList> read_cues(const std::filesystem::path& state_folder,
                                         const studio::Studio& studio, core::Problems& warnings) {
   auto list = std::make_unique<rig::CueList>();
+  list->studio = studio.fingerprint;
   const auto file = cue_file(state_folder, studio);
   std::ifstream in(file);
   if (!in) return list;
@@ -84,7 +89,7 @@ core::Result<core::Done> write_cues(const std::filesystem::path& state_folder,
             {"studio", studio.name},
             {"cues", Json::array()}};
   for (const rig::Cue& cue : list.cues) json["cues"].push_back(cue_json(cue, studio));
-  return write_whole(cue_file(state_folder, studio), json.dump(1) + "\n", kCueGenerations);
+  return write_whole(cue_file(state_folder, studio), text_of(json, 1) + "\n", kCueGenerations);
 }
 
 std::string number_in_words(double number) {

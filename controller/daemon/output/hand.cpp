@@ -11,7 +11,8 @@ void Hand::take_what_was_offered() {
   }
   if (rig::CueList* list = cues_in_.exchange(nullptr, std::memory_order_acq_rel)) {
     std::unique_ptr<rig::CueList> cues(list);
-    show_->take_cues(cues);
+    // A list that was made for the studio of before goes back as it came.
+    if (cues->studio == show_->studio().fingerprint) show_->take_cues(cues);
     cues_out_.store(cues.release(), std::memory_order_release);
   }
 }
@@ -34,7 +35,7 @@ void Hand::frame(ports::Clock& clock) {
     told_ = now;
     show_->set_blackout((wish & 1u) != 0);
   }
-  show_->frame(clock);
+  show_->frame(clock, tape_.load(std::memory_order_acquire));
   if (show_->all_tried_since(told_)) taken_.store(seen_ / 2, std::memory_order_release);
   frames_.fetch_add(1, std::memory_order_relaxed);
 }

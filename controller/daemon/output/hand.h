@@ -47,8 +47,8 @@ class Hand {
   std::uint64_t frames() const { return frames_.load(std::memory_order_relaxed); }
 
   // One thread, one list at a time: hands the loop other cues; the old list comes back.
-  void offer_cues(std::unique_ptr<rig::CueList> list) {
-    cues_in_.store(list.release(), std::memory_order_release);
+  void offer_cues(std::unique_ptr<rig::CueList> cues) {
+    delete cues_in_.exchange(cues.release(), std::memory_order_acq_rel);
   }
   std::unique_ptr<rig::CueList> collect_cues() {
     return std::unique_ptr<rig::CueList>(cues_out_.exchange(nullptr, std::memory_order_acq_rel));
@@ -60,6 +60,8 @@ class Hand {
   void offer(std::unique_ptr<Show> show) {
     incoming_.store(show.release(), std::memory_order_release);
   }
+  /// From its next frame on the loop puts what it sends on that tape too, for good.
+  void record_to(LiveTape& tape) { tape_.store(&tape, std::memory_order_release); }
   /// The show that the loop has put down; null until it has.
   std::unique_ptr<Show> collect() {
     return std::unique_ptr<Show>(outgoing_.exchange(nullptr, std::memory_order_acq_rel));
@@ -75,6 +77,7 @@ class Hand {
   std::unique_ptr<Show> show_;
   std::atomic<Show*> incoming_{nullptr}, outgoing_{nullptr};
   std::atomic<rig::CueList*> cues_in_{nullptr}, cues_out_{nullptr};
+  std::atomic<LiveTape*> tape_{nullptr};
   std::atomic<std::uint64_t> wish_{0};  ///< number * 2 + on
   std::atomic<std::uint64_t> taken_{0};
   std::atomic<std::uint64_t> frames_{0};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <ostream>
+#include <utility>
 
 #include "controller/daemon/box_words.h"
 #include "controller/daemon/output/last_levels.h"
@@ -56,6 +57,7 @@ Housekeeper::Housekeeper(Hand& hand, const std::filesystem::path& studio_file,
       studio_file_(studio_file),
       options_(options),
       world_(world),
+      recorder_(hand),
       report_(sized_sent(hand.show().studio())),
       studio_(hand.show().studio()) {}
 
@@ -68,6 +70,7 @@ void Housekeeper::tick() {
     desk_->follow(studio_, report_);  // both are changed by this thread alone
     say(desk_->take_problems());
   }
+  say(recorder_.tick());
   mend_ports();
   save_if_due();
   std::unique_lock lock(reload_mutex_);
@@ -102,12 +105,14 @@ void Housekeeper::read_report() {
     if (!reader) return;
     report_reader_ = std::move(*reader);
     report_words_.resize(format.words);
+    spare_ = sized_sent(show_->studio());
+    resized_ = true;
   }
   if (!report_reader_->read(report_words_)) return;
-  rig::Sent fresh = sized_sent(show_->studio());
-  from_words(report_words_, fresh);
+  from_words(report_words_, spare_);
   const std::scoped_lock lock(report_mutex_);
-  report_ = std::move(fresh);
+  std::swap(report_, spare_);
+  if (std::exchange(resized_, false)) spare_ = report_;  // it was of another studio
 }
 
 void Housekeeper::read_axes() {
@@ -196,6 +201,7 @@ void Housekeeper::wait_a_tick() { world_.clock.sleep_until(world_.clock.now() + 
 void Housekeeper::finish() {
   read_report();
   save_now();
+  say(recorder_.tick());
 }
 
 void Housekeeper::save_if_due() {
@@ -216,10 +222,19 @@ void Housekeeper::save_now() {
   save_failed_ = !written;
 }
 
+void Housekeeper::end() {
+  {
+    const std::scoped_lock lock(reload_mutex_);
+    ending_.store(true, std::memory_order_release);
+  }
+  reload_done_.notify_all();
+}
+
 core::Result<core::Done> Housekeeper::reload_now(ports::Duration patience) {
   std::unique_lock lock(reload_mutex_);
   const std::uint64_t mine = ++reloads_asked_;
-  if (!reload_done_.wait_for(lock, patience, [&] { return reloads_done_ >= mine; }))
+  if (!reload_done_.wait_for(lock, patience, [&] { return reloads_done_ >= mine || ending_; }) ||
+      reloads_done_ < mine)
     return core::Problem{{}, "the studio file is still being read", "ask again in a moment"};
   if (core::any_error(reload_problems_)) return reload_problems_;
   return core::Done{};

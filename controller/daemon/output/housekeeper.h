@@ -17,6 +17,7 @@
 #include "controller/core/result.h"
 #include "controller/daemon/output/desk.h"
 #include "controller/daemon/output/hand.h"
+#include "controller/daemon/output/recorder.h"
 #include "controller/ports/world.h"
 
 namespace chiaro::daemon {
@@ -35,11 +36,13 @@ class Housekeeper {
   /// One round; the caller sleeps until `kTick` later.
   void tick();
   /// No more waiting for the loop: it ends.
-  void end() { ending_.store(true, std::memory_order_release); }
+  void end();
   /// After the loop and the last round: keeps the levels of the last frame.
   void finish();
   /// Asks for a reload and waits for its outcome; `patience` in real time. Thread-safe.
   core::Result<core::Done> reload_now(ports::Duration patience);
+  /// Thread-safe.
+  Recorder& recorder() { return recorder_; }
   /// The newest report, copied. Thread-safe.
   rig::Sent newest_report() const;
   /// How the motors with an address of their own stand, by their own word. Thread-safe.
@@ -72,12 +75,15 @@ class Housekeeper {
   const Show::Options options_;
   ports::World& world_;
   Desk* desk_ = nullptr;
+  Recorder recorder_;
 
   std::uint64_t brain_box_ = 0;  ///< identity of the box that was last given or refused
   std::unique_ptr<BoxReader> report_reader_;
   std::vector<std::uint64_t> report_words_;
   mutable std::mutex report_mutex_;
   rig::Sent report_;
+  rig::Sent spare_;  ///< this thread's: where the next report is read into
+  bool resized_ = false;
   studio::Studio studio_;   ///< under the report's mutex
   std::vector<Axis> axes_;  ///< the same
 

@@ -15,10 +15,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Of everything but itself. JSON keeps its keys sorted, so the same values give the same text.
-std::string checksum_of(Json json) {
-  json.erase("checksum");
-  return core::hex(core::Fingerprint().add(json.dump()).value());
+/// JSON keeps its keys sorted, so the same values give the same text.
+std::string checksum_of(const Json& json) {
+  return core::hex(core::Fingerprint().add(text_of(json)).value());
 }
 
 bool is_whole(const Json& json) {
@@ -26,7 +25,10 @@ bool is_whole(const Json& json) {
       !json["fixtures"].is_object())
     return false;
   // A file that somebody wrote by hand has none.
-  return !json.contains("checksum") || json["checksum"] == Json(checksum_of(json));
+  if (!json.contains("checksum")) return true;
+  Json rest = json;
+  rest.erase("checksum");
+  return json["checksum"] == Json(checksum_of(rest));
 }
 
 Json marks_of(const studio::Studio& studio, const std::vector<rig::Marks>& marks) {
@@ -53,7 +55,7 @@ bool flag(const Json& json, const char* name) {
 
 void take_ids(const Json& json, const char* name, std::span<std::uint64_t> into) {
   const Json ids = json.value(name, Json::array());
-  for (std::size_t i = 0; i < into.size() && i < ids.size(); ++i)
+  for (std::size_t i = 0; ids.is_array() && i < into.size() && i < ids.size(); ++i)
     if (ids[i].is_number_unsigned()) into[i] = ids[i].get<std::uint64_t>();
 }
 
@@ -63,7 +65,7 @@ rig::Held held_in(const Json& json, const studio::Studio& studio) {
   held.motion_stop = flag(json, "motion_stop");
   if (const Json cue = json.value("cue", Json()); cue.is_number()) held.cue = cue.get<double>();
   const Json masters = json.value("masters", Json::array());
-  for (std::size_t i = 0; i < held.masters.size() && i < masters.size(); ++i)
+  for (std::size_t i = 0; masters.is_array() && i < held.masters.size() && i < masters.size(); ++i)
     if (masters[i].is_number()) held.masters[i] = masters[i].get<double>();
   take_ids(json, "fade_ids", held.fade_id);
   take_ids(json, "master_ids", held.master_id);
@@ -98,9 +100,10 @@ core::Result<core::Done> write_last_levels(const std::filesystem::path& file,
   json["marks"] = marks_of(studio, held.marks);
   json["own_marks"] = marks_of(studio, held.own_marks);
   json["fixtures"] = json_of(studio, held.fixtures);
-  json["own"] = json_of(studio, held.own);
+  for (std::size_t i = 0; i < studio.fixtures.size() && i < held.own.size(); ++i)
+    if (held.own[i].present() != 0) json["own"][studio.fixtures[i].name] = json_of(held.own[i]);
   json["checksum"] = checksum_of(json);
-  return write_whole(file, json.dump(1) + "\n", kLevelGenerations, calls);
+  return write_whole(file, text_of(json, 1) + "\n", kLevelGenerations, calls);
 }
 
 core::Result<core::Done> write_last_levels(const std::filesystem::path& file,

@@ -160,4 +160,21 @@ PortPlan plan_of(const studio::Studio& studio, const studio::Output& output,
   return plan;
 }
 
+std::unique_ptr<ports::OutputPort> open_port(const PortPlan& plan, bool dry_run,
+                                             drivers::Surroundings& around,
+                                             core::Problems& warnings) {
+  auto port = drivers::make_output(plan.driver, plan.settings, around);
+  if (port && dry_run && (*port)->physical())
+    port = drivers::make_output("mock", plan.settings, around);
+  if (!port) return nullptr;
+  if ((*port)->blocks()) return std::move(*port);
+  if (const auto opened = (*port)->open(); !opened)
+    for (core::Problem problem : opened.problems()) {
+      problem.warning = true;
+      problem.what += "; trying again every few seconds";
+      warnings.push_back(problem);
+    }
+  return std::move(*port);
+}
+
 }  // namespace chiaro::daemon

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string>
 
 #include "controller/studio/studio.h"
@@ -20,5 +21,12 @@ struct PortPlan {
 /// speaks for all.
 PortPlan plan_of(const studio::Studio& studio, const studio::Output& output,
                  const std::array<std::uint8_t, 16>& cid);
+
+/// The port, open if it can be without waiting for its device (else its own thread opens it); in a
+/// dry run nothing that could reach a lamp is even made. What keeps it from opening now is a
+/// warning: it is tried again.
+std::unique_ptr<ports::OutputPort> open_port(const PortPlan& plan, bool dry_run,
+                                             drivers::Surroundings& around,
+                                             core::Problems& warnings);
 
 }  // namespace chiaro::daemon

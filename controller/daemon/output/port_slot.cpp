@@ -2,6 +2,7 @@
 #include "controller/daemon/output/port_slot.h"
 
 #include <cmath>
+#include <utility>
 
 namespace chiaro::daemon {
 
@@ -21,8 +22,9 @@ void PortSlot::set_rate(double rate_hz) {
 }
 
 bool PortSlot::away() {
-  const Lending lending = lending_.load(std::memory_order_acquire);
-  if (lending == Lending::asked) lending_.store(Lending::lent, std::memory_order_release);
+  Lending lending = Lending::asked;  // in one step: who asked may give up meanwhile
+  if (lending_.compare_exchange_strong(lending, Lending::lent, std::memory_order_acq_rel))
+    return true;
   return lending != Lending::at_work;
 }
 
@@ -52,7 +54,13 @@ void PortSlot::send(const ports::DmxFrame& frame, ports::Clock& clock) {
 }
 
 void PortSlot::send_here(const ports::DmxFrame& frame, ports::TimePoint now) {
-  port_->send(frame, now);
+  port_->send_later(frame, now);
+  pending_ = true;
+}
+
+void PortSlot::flush() {
+  if (!std::exchange(pending_, false)) return;
+  port_->flush();
   health_.store(port_->report().health, std::memory_order_release);
 }
 

@@ -31,8 +31,11 @@ class PortSlot {
   void set_rate(double rate_hz);
   ports::TimePoint next() const { return next_; }
   bool due(ports::TimePoint now) const { return next_ <= now; }
-  /// Real-time. Sends when due and moves on to the next deadline of the grid that lies ahead.
+  /// Real-time. Sends when due, at the latest with the next `flush` of any port, and moves on to
+  /// the next deadline of the grid that lies ahead.
   void send(const ports::DmxFrame& frame, ports::Clock& clock);
+  /// Real-time; after the last port of a frame.
+  void flush();
   /// Time of the last attempt: what was decided before it is on the wire, if the wire is there (or
   /// will be at the device's next turn, if that keeps its callers waiting).
   ports::TimePoint tried() const { return tried_; }
@@ -69,7 +72,7 @@ class PortSlot {
   double rate_hz_ = 0;
   ports::Duration period_{};
   ports::TimePoint next_, tried_, sent_;
-  bool any_ = false;
+  bool any_ = false, pending_ = false;
   std::uint64_t late_ = 0, missed_ = 0;
   Jitter jitter_;
   double p50_ = 0, p99_ = 0, p999_ = 0;  ///< refreshed about once a second: counting costs

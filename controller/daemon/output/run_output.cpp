@@ -5,6 +5,7 @@
 #include <exception>
 #include <ostream>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "controller/daemon/file_lock.h"
@@ -53,8 +54,15 @@ void keep_house(Housekeeper& housekeeper, const Hand& hand, ports::World& world,
                 const std::atomic<bool>& ended) {
   take_ordinary_time();
   Service service;
+  bool told = false;
   while (!ended) {
-    housekeeper.tick();
+    try {
+      housekeeper.tick();
+    } catch (const std::exception& fault) {  // the output goes on all the same
+      if (!std::exchange(told, true))
+        world.err << "chiaro-output: internal fault beside the output: " << fault.what()
+                  << "\nThis is a bug in Chiaro: please report it." << std::endl;
+    }
     service.alive(hand.frames());
     world.clock.sleep_until(world.clock.now() + Housekeeper::kTick);
   }

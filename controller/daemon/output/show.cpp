@@ -12,9 +12,13 @@ namespace chiaro::daemon {
 namespace {
 
 constexpr ports::Duration kIdlePeriod = std::chrono::milliseconds(25);
+/// Off stage as gently as a fader that is let go.
+const rig::SourceState kNoCue{{}, 0, rig::kReleaseFade};
 /// A report of every lamp and every source costs more than all the levels: a quarter of the frames
-/// is plenty for people and brains.
+/// is plenty for people and brains, and of a hall of lamps a tenth.
 constexpr ports::Duration kReportPeriod = std::chrono::milliseconds(100);
+constexpr ports::Duration kLongReportPeriod = std::chrono::milliseconds(250);
+constexpr std::size_t kLongReport = 40'000;  // words
 
 std::ptrdiff_t find_port(const Show* before, const PortPlan& plan) {
   if (before == nullptr) return -1;
@@ -26,25 +30,6 @@ std::ptrdiff_t find_port(const Show* before, const PortPlan& plan) {
     if (ports[i]->settings() == wanted) return static_cast<std::ptrdiff_t>(i);
   }
   return -1;
-}
-
-/// The port, open if it can be without waiting for its device (else its own thread opens it); in a
-/// dry run nothing that could reach a lamp is even made.
-std::unique_ptr<ports::OutputPort> open_port(const PortPlan& plan, bool dry_run,
-                                             drivers::Surroundings& around,
-                                             core::Problems& warnings) {
-  auto port = drivers::make_output(plan.driver, plan.settings, around);
-  if (port && dry_run && (*port)->physical())
-    port = drivers::make_output("mock", plan.settings, around);
-  if (!port) return nullptr;
-  if ((*port)->blocks()) return std::move(*port);
-  if (const auto opened = (*port)->open(); !opened)
-    for (core::Problem problem : opened.problems()) {
-      problem.warning = true;
-      problem.what += "; trying again every few seconds";
-      warnings.push_back(problem);
-    }
-  return std::move(*port);
 }
 
 }  // namespace
@@ -190,7 +175,7 @@ void Show::obey(const Wish& wish, ports::TimePoint now) {
       break;
     case Wish::Kind::cue_off:
       cues_.off();
-      governor_.play({}, {}, now);
+      governor_.play(kNoCue, kNoCue, now);
       break;
   }
   last_report_ = {};  // who wished may look
@@ -246,7 +231,7 @@ void Show::hear(ports::TimePoint now) {
   }
 }
 
-void Show::frame(ports::Clock& clock) {
+void Show::frame(ports::Clock& clock, LiveTape* tape) {
   const ports::TimePoint now = clock.now();
   last_frame_ = now;
   hear(now);
@@ -255,13 +240,19 @@ void Show::frame(ports::Clock& clock) {
   plan_.encode(governor_.step(now), frames_);
   stop_motors();
   if (!governor_.blackout()) tried_.raise(frames_, now);
-  for (std::size_t i = 0; i < ports_.size(); ++i)
-    if (ports_[i]->due(now)) ports_[i]->send(frames_[frame_of_port_[i]], clock);
+  for (std::size_t i = 0; i < ports_.size(); ++i) {
+    if (!ports_[i]->due(now)) continue;
+    const ports::DmxFrame& frame = frames_[frame_of_port_[i]];
+    ports_[i]->send(frame, clock);
+    if (tape != nullptr) tape->put(now, frame);
+  }
+  for (auto& port : ports_) port->flush();
   if (report_is_due(now)) report_now();
 }
 
 bool Show::report_is_due(ports::TimePoint now) const {
-  return now - last_report_ >= kReportPeriod || governor_.caution() != report_.caution ||
+  const auto period = sent_words_.size() > kLongReport ? kLongReportPeriod : kReportPeriod;
+  return now - last_report_ >= period || governor_.caution() != report_.caution ||
          governor_.blackout() != report_.blackout;
 }
 

@@ -12,6 +12,7 @@
 
 #include "controller/core/result.h"
 #include "controller/daemon/box.h"
+#include "controller/daemon/output/live_tape.h"
 #include "controller/daemon/output/port_slot.h"
 #include "controller/daemon/output/tried_slots.h"
 #include "controller/daemon/output/wish.h"
@@ -49,7 +50,8 @@ class Show {
   ports::TimePoint next_deadline() const;
   /// Hears the brain, decides the levels and sends every port that is due. Ends with a report when
   /// one is due: ten a second, and at once when caution or blackout have changed.
-  void frame(ports::Clock& clock);
+  /// What leaves is put on `tape` too, if there is one.
+  void frame(ports::Clock& clock, LiveTape* tape = nullptr);
   void report_now();
   void set_blackout(bool on) { governor_.set_blackout(on); }
   void obey(const Wish& wish, ports::TimePoint now);

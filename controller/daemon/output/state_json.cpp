@@ -7,6 +7,10 @@ namespace chiaro::daemon {
 
 using Json = nlohmann::json;
 
+std::string text_of(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
 Json json_of(const core::FixtureState& state) {
   Json values = Json::object();
   for (const auto& dof : core::dofs())

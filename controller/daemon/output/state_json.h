@@ -3,12 +3,17 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 #include <vector>
 
 #include "controller/core/dof.h"
 #include "controller/studio/studio.h"
 
 namespace chiaro::daemon {
+
+/// One line, or indented; text that is not whole UTF-8 (a client may send anything) is mended,
+/// never thrown at whoever asked.
+std::string text_of(const nlohmann::json& json, int indent = -1);
 
 nlohmann::json json_of(const core::FixtureState& state);
 /// Names and values that are none are passed over.

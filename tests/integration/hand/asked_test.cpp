@@ -139,6 +139,42 @@ TEST_F(Asked, LatchesTheMotionStopAcrossAPowerCutAndArmsOnlyAfterItsRelease) {
   EXPECT_TRUE(refuses("motion dance", "known: stop, release, arm, disarm"));
 }
 
+TEST_F(Asked, AnswersTextThatIsNotWholeAndGoesOn) {
+  start();
+  const std::string astride(79, 'a');
+  ask("cue record 1 fade 0 name " + astride + "\xc3\xa4 and more");
+  EXPECT_EQ(ask("cue list")["cues"][0]["name"], astride);  // never half a letter
+  const std::vector<std::string> verbs{"",     "mark ",   "level ",         "master ",
+                                       "cue ", "motion ", "record start /", "cue record 2 name "};
+  for (const std::size_t size : {39u, 40u, 60u, 80u})
+    for (const std::string& letter : {std::string("\xff"), std::string("\xc3\xa4\xc3\xa4")})
+      for (const std::string& verb : verbs) {
+        const std::string line = verb + std::string(size, 'b') + letter + " c";
+        const auto answer = meanwhile([&] { return hand_request(runtime(), line, 20s); });
+        const std::string refused = answer ? "" : core::to_string(answer.problems());
+        EXPECT_EQ(refused.find("in time"), std::string::npos) << line << ": " << refused;
+      }
+  EXPECT_EQ(ask("status")["caution"], "hold");
+}
+
+TEST_F(Asked, TakesACueOffInAShortFade) {
+  start();
+  ask("level 100 a");
+  ask("cue record 1 fade 0");
+  ask("level release a");
+  run(1s);
+  ask("cue go");
+  EXPECT_EQ(slot(1), 255);
+  hear();
+  ask("cue off");
+  run(1s);
+  bool between = false;
+  for (const auto& packet : hear())
+    between = between || (packet.level(1) > 0 && packet.level(1) < 255);
+  EXPECT_TRUE(between);
+  EXPECT_EQ(slot(1), 0);
+}
+
 TEST_F(Asked, GoesOnThroughAFullDiskAndSaysItOnce) {
   start();
   brain_ = brain();

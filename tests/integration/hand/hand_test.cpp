@@ -211,10 +211,13 @@ TEST_F(HandTest, ComesUpDarkWhenTheStudioFileSaysSo) {
 }
 
 TEST_F(HandTest, SurvivesAnyLastLevelsFile) {
-  for (const char* text : {"", "{", "[]", "{\"studio\":\"test\",\"fixtures\":3}",
-                           "{\"studio\":\"test\",\"fixtures\":{\"a\":{\"intensity\":\"x\"}},"
-                           "\"masters\":[null,\"x\"],\"blackout\":7}",
-                           "{\"studio\":\"test\",\"fixtures\":{\"a\":{\"intensity\":1e999}}}"}) {
+  for (const char* text :
+       {"", "{", "[]", "{\"studio\":\"test\",\"fixtures\":3}",
+        "{\"studio\":\"test\",\"fixtures\":{\"a\":{\"intensity\":\"x\"}},"
+        "\"masters\":[null,\"x\"],\"blackout\":7}",
+        "{\"studio\":\"test\",\"fixtures\":{},\"masters\":\"abc\",\"fade_ids\":{},"
+        "\"master_ids\":7,\"latch_ids\":\"x\",\"own\":[],\"marks\":[],\"cue\":\"y\"}",
+        "{\"studio\":\"test\",\"fixtures\":{\"a\":{\"intensity\":1e999}}}"}) {
     std::filesystem::create_directories(state());
     std::ofstream(state() / "last-levels.json") << text;
     start();

@@ -60,12 +60,15 @@ TEST_F(Loop, AllocatesNothingWhileItFadesReportsAndIsSwapped) {
   auto& look = wanted.sources[static_cast<std::size_t>(rig::Source::look)];
   look.fixtures.resize(100);
   look.fade_s = 1;
+  LiveTape tape(studio.outputs.size());
+  hand.record_to(tape);
   hand.start(clock_.now());
   long allocations = 0;
   for (int round = 0; round < 20; ++round) {
     look.fade_id = static_cast<std::uint64_t>(round) + 1;
     for (auto& state : look.fixtures) state.set(core::Dof::intensity, round % 2);
     (*link)->post(wanted, clock_.now());
+    if (round == 2) tape.begin();
     if (round == 7) hand.wish_blackout(true);
     if (round == 9) hand.wish_blackout(false);
     if (round == 11) network_.unplug(true);

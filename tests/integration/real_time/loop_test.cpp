@@ -264,6 +264,9 @@ class EveryDriver : public testing::Test {
   support::TemporaryFolder folder_;
   PlainClock clock_;
   PlainNetwork network_;
+  support::FakeClock no_clock_;
+  support::FakeNetwork no_network_;
+  support::FakeWorld shipped_{no_clock_, no_network_, folder_.path()};  ///< for its folders
   support::FakeDevices devices_;
   std::vector<std::shared_ptr<support::FakeDevice>> far_ends_;
   std::istringstream in_;
@@ -276,7 +279,7 @@ class EveryDriver : public testing::Test {
                       out_,
                       err_,
                       false,
-                      std::filesystem::path(CHIARO_SOURCE) / "config",
+                      shipped_.world.config_folder,
                       folder_.path() / "state",
                       folder_.path() / "run",
                       stop_,

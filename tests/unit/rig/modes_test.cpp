@@ -265,6 +265,41 @@ TEST_F(ModesTest, DimsACircuitsLampsInProportionToKeepItsPower) {
   EXPECT_EQ(told.limited[1], 0);
 }
 
+TEST_F(ModesTest, CountsAParkedLampOnItsCircuitAndLetsTheOthersShareTheRest) {
+  build("circuits:\n  wall: {limit: 500 W, lamps: {a: 400 W, h: 400 W}}\n");
+  want(1);
+  look(2).set(Dof::intensity, 0);
+  post(0s);
+  EXPECT_EQ(sent(0s, 0), 1);
+  mark(0, Mark::park, true);
+  want(0);
+  look(2).set(Dof::intensity, 1);
+  post(100ms);
+  EXPECT_EQ(sent(100ms, 0), 1);
+  EXPECT_DOUBLE_EQ(sent(100ms, 2), 0.25);  // what is left: 100 W
+  EXPECT_DOUBLE_EQ(report().circuits[0].draw_w, 500);
+  governor_->set_blackout(true);
+  sent(200ms, 2);
+  EXPECT_EQ(report().circuits[0].draw_w, 0);
+}
+
+TEST_F(ModesTest, CountsALampThatIsStillOnItsWayDown) {
+  build("circuits:\n  wall: {limit: 500 W, lamps: {a: 400 W, h: 400 W}}\n",
+        "limits: {dark_to_full: 1 s}");
+  want(1);
+  look(2).set(Dof::intensity, 0);
+  post(0s);
+  EXPECT_EQ(sent(0s, 0), 1);
+  want(0);
+  look(2).set(Dof::intensity, 1);
+  post(25ms);
+  for (auto at = 25ms; at < 1200ms; at += 25ms) {
+    const double a = sent(at, 0), h = sent(at, 2);
+    EXPECT_LE(400 * (a + h), 500 + 1e-9 + 400 * 0.05) << at.count();  // a frame behind at most
+  }
+  EXPECT_EQ(sent(1200ms, 2), 1);
+}
+
 TEST_F(ModesTest, KnowsThatFilamentsDrawMoreThanTheirShareOfLight) {
   build("circuits:\n  wall: {limit: 500 W, tungsten: yes, lamps: {a: 1000 W}}\n");
   want(1);
