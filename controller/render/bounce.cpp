@@ -242,6 +242,8 @@ BounceMap::BounceMap(const BounceField& field, const View& view) {
   core::Grid<std::int32_t> sample_at(coarse.size, -1);
   for (std::size_t i = 0; i < coarse.samples(); ++i)
     sample_at.values[coarse.pixel[i]] = static_cast<std::int32_t>(i);
+  // A subject so small or far that the field's own view sees nothing of it: nothing is added.
+  if (coarse.samples() == 0) return;
   const std::size_t n = fine.samples();
   pixel_ = fine.pixel;
   point_.resize(n);

@@ -38,7 +38,7 @@ class TapeTest : public testing::Test {
       for (std::uint16_t u = 0; u < 3; ++u) {
         if (tick % (u + 1) != 0) continue;
         frames[u].universe = static_cast<std::uint16_t>(u * 30000 + 1);
-        for (std::uint32_t n = random() % 4 * (tick % 5 != 0); n > 0; --n)
+        for (auto n = random() % 4 * (tick % 5 != 0); n > 0; --n)
           frames[u].levels[random() % ports::kSlots] = static_cast<std::uint8_t>(random());
         (*writer)->add(now, frames[u]);
         all.push_back({now - begun, frames[u]});

@@ -308,13 +308,13 @@ TEST_F(EveryDriver, IsSentThroughWithoutAnythingThatCouldKeepTheLoop) {
   look.fixtures.resize(studio.fixtures.size());
   look.fade_s = 0.5;
   const auto wish = [&](Wish::Kind kind, bool on, double number = 0) {
-    Wish wish;
-    wish.kind = kind;
-    wish.on = on;
-    wish.number = number;
-    wish.fixture = Wish::kEvery;
-    wish.studio = studio.fingerprint;
-    EXPECT_NE(hand.wish(wish), 0u);
+    Wish asked;
+    asked.kind = kind;
+    asked.on = on;
+    asked.number = number;
+    asked.fixture = Wish::kEvery;
+    asked.studio = studio.fingerprint;
+    EXPECT_NE(hand.wish(asked), 0u);
   };
   for (int round = 0; round < 24; ++round) {
     look.fade_id = static_cast<std::uint64_t>(round) + 1;

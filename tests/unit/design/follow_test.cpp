@@ -230,7 +230,7 @@ TEST_F(Keeping, ALampOnATrackGoesWithTheSubjectAndNeverJumps) {
   studio::TrackMount track;
   track.from = {-1.6, -1.4, 1.9};
   track.to = {1.6, -1.4, 1.9};
-  track.axis = "channel:2";
+  track.axis.slot = 2;
   studio.fixtures[0].mount = track;
   look.states[0] = {};
   look.states[0].set(core::Dof::intensity, 0.3);

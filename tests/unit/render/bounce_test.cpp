@@ -101,6 +101,24 @@ TEST(BounceMap, LuminanceIsThatOfTheColours) {
   EXPECT_GT(sum, 0);
 }
 
+TEST(BounceMap, ASubjectTooSmallForTheFieldGetsNothing) {
+  const auto tracer = std::make_shared<const Tracer>(
+      support::geometry_of({support::card({0, 0, 1}, {0.05, 0, 0}, {0, 0, 0.05})}, white_half()));
+  const auto camera = camera_at({0, -40, 1}, {0, 0, 1});
+  const BounceField field(tracer, camera);
+  const Bounced bounced = field.from(point_light({0, -1, 2}, 1000));
+  ASSERT_TRUE(bounced.lux[0].empty());  // an even number of pixels: none looks at the very middle
+  const View view = see(tracer, camera, {63, 63});
+  ASSERT_EQ(view.buffer.samples(), 1u);
+  core::Plane luminance({63, 63});
+  core::Picture colour({63, 63});
+  const BounceMap map(field, view);
+  map.add_luminance(bounced, {1, 1, 1}, 1, luminance);
+  map.add_colour(bounced, {1, 1, 1}, 1, colour);
+  EXPECT_EQ(mean(luminance.values), 0);
+  EXPECT_EQ(mean(colour.red.values), 0);
+}
+
 TEST(BounceCache, BlendsToWithinAFewPerCentOfTheTracedField) {
   support::Folder folder;
   const studio::Studio studio = support::ball_studio(folder.path(), 3);
