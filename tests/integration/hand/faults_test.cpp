@@ -107,6 +107,7 @@ TEST_F(FullDisk, LeavesTheLastLevelsThatWereWrittenWhole) {
   run(3s);
   stop();
   brain.reset();
+  std::filesystem::remove_all(runtime());  // as a power cut does: no box is left
   hear();
   start();
   run(500ms);

@@ -98,7 +98,7 @@ TEST_F(NewCommand, BadAnswersAreAskedAgainWithAReason) {
         "9 m is out of range (0.3 m to 2.5 m)", "'kei' is not one of key, fill",
         "did you mean 'generic/bicolour-panel'?", "'5ch' is not one of 2ch",
         "'0' is not a whole number from 1 to 63999", "it needs 2 slots and would run past 512",
-        "'maybe' is not one of stand, hung, arc and track", "what does 'over' mean?",
+        "'maybe' is not one of stand, hung, arc or track", "what does 'over' mean?",
         "a lamp comes no nearer to a sitter than 0.6 m", "above the ceiling (3 m)",
         "there is a lamp called 'key' already", "that overlaps 'key' (1 to 2) (address 3 is free)"})
     EXPECT_TRUE(said(words)) << words << "\n" << fake_.err.str();
