@@ -99,7 +99,6 @@ class TapeReader {
   std::map<std::uint16_t, ports::DmxFrame> frames_;
   std::vector<const ports::DmxFrame*> sent_;
   ports::Duration at_{};
-  bool any_ = false;
   core::Problems broke_off_;
 };
 
