@@ -24,9 +24,11 @@ class LiveTape {
   explicit LiveTape(std::size_t universes)
       : sent_(std::clamp<std::size_t>(universes * 64, 256, 32768)) {}
 
-  /// The loop's; real-time.
+  // The loop's; real-time.
+  /// Asked once a tick, so that a recording begins with a whole one.
+  bool runs() const { return on_.load(std::memory_order_acquire); }
   void put(ports::TimePoint at, const ports::DmxFrame& frame) {
-    if (!on_.load(std::memory_order_acquire)) return;
+    if (!runs()) return;
     const std::uint64_t put = put_.load(std::memory_order_relaxed);
     if (put - taken_.load(std::memory_order_acquire) >= sent_.size()) {
       lost_.fetch_add(1, std::memory_order_relaxed);

@@ -232,6 +232,7 @@ void Show::hear(ports::TimePoint now) {
 }
 
 void Show::frame(ports::Clock& clock, LiveTape* tape) {
+  if (tape != nullptr && !tape->runs()) tape = nullptr;
   const ports::TimePoint now = clock.now();
   last_frame_ = now;
   hear(now);

@@ -247,15 +247,20 @@ TEST_F(RecordingHand, KeepsEveryFrameThatLeftInItsOrder) {
   ASSERT_TRUE(tape);
   EXPECT_EQ((*tape)->head().studio, "test");
   std::vector<ports::DmxFrame> recorded;
+  std::size_t cut = 0;
   ports::Duration last{-25ms};
   while ((*tape)->next()) {
     ASSERT_EQ((*tape)->at() - last, 25ms);
     last = (*tape)->at();
-    ASSERT_EQ((*tape)->sent().size(), 2u);
+    if ((*tape)->sent().size() != 2u) {  // the last tick may be cut short, no other
+      ASSERT_FALSE((*tape)->next());
+      ++cut;
+      break;
+    }
     recorded.push_back(*(*tape)->sent()[0]);
   }
-  EXPECT_EQ(stopped["ticks"], recorded.size());
-  ASSERT_GT(recorded.size(), 80u);
+  EXPECT_EQ(stopped["ticks"], recorded.size() + cut);
+  ASSERT_GE(recorded.size(), 79u);
   // What a lamp heard: somewhere in it stands the recording, whole.
   std::vector<int> heard, kept;
   for (const auto& packet : hear()) heard.push_back(packet.level(1));
